@@ -191,14 +191,14 @@ montecarlo: ## measure: 2000 closed-loop flights drawn at random: how often a po
 	$(begin)
 	$(call fly,$(FLIGHTS))
 
-flips: ## measure: 10000 flights, each with one flipped bit: masked, told, silent: FLIPS= SEED=
+flips: ## measure: 10000 flights, each with one flipped bit: masked, reported, silent: FLIPS= SEED=
 	$(begin)
 	$(call packages,build)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),flips)
 	@ft/campaign/run flips $(BUILD) $(or $(FLIPS),10000) $(or $(SEED),1)
 
-scrub: ## measure: 100000 flips in what the scrub protects: told in time or not: FLIPS= SEED=
+scrub: ## measure: 100000 flips in what the scrub protects: reported in time or not: FLIPS= SEED=
 	$(begin)
 	$(call packages,build)
 	$(call configure,$(BUILD),)
@@ -346,10 +346,10 @@ ppc-count: ## board: instructions of one estimate, by function; both number type
 	$(call compile,$(PPC)-soft-fixed,golden_replay)
 	@ft/ppc603e/count $(BUILD) $(PPC) $(FRAMES) fixed=$(CLANG),$(PPC)-fixed soft-float=$(BUILD),$(PPC)-soft soft-fixed=$(CLANG),$(PPC)-soft-fixed
 
-start-count: ## board: instructions of an estimate from a rough start, and those beyond a frame: STARTS= SEED= MISSION=
+start-count: ## board: instructions of an estimate from a rough start, and those beyond a frame: STARTS= SEED= MISSION= SCENARIO= RANGES=2,4,7
 	$(begin)
 	$(replays)
-	@ft/ppc603e/count-starts $(BUILD) $(PPC) $(or $(STARTS),300) $(or $(SEED),1) "$(MISSION)"
+	@ft/ppc603e/count-starts $(BUILD) $(PPC) $(or $(STARTS),300) $(or $(SEED),1) "$(MISSION)" "$(SCENARIO)" "$(RANGES)"
 
 search-count: ## board: instructions of a search, and its largest step: STARTS= SEED=
 	$(begin)

@@ -70,7 +70,7 @@ void Flight::tick() {
   clock_.wake_at(component_.next_slot_us());
 }
 
-// The frame's telemetry, which tells of it, goes to the ground first, as far as the line takes it in time.
+// The frame's telemetry, which reports it, goes to the ground first, as far as the line takes it in time.
 bool Flight::is_reset_now() {
   return component_.next_slot_is_boundary() && reset_wait_.over(component_.reset_due(), lines_.ground.all_sent());
 }

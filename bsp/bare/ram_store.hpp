@@ -1,5 +1,5 @@
 // The non-volatile store as a region of memory that start-up leaves alone: it outlives a restart, not the loss of power. What memory holds
-// then is noise, and reads as nothing: each image, parameter set and record of the event log has a check sum of its own
+// then is noise, and reads as nothing: each image, parameter set and record of the event log has a checksum of its own
 // (fsw/mission/stored_record.hpp, fsw/exec/stored_log.hpp), and nothing else says what is there, so that a flipped bit costs one of them.
 #pragma once
 

@@ -1,4 +1,4 @@
-// How long a commanded reset waits for the telemetry that tells of it.
+// How long a commanded reset waits for the telemetry that reports it.
 #pragma once
 
 #include <cstdint>

@@ -49,7 +49,8 @@ std::size_t TcpClients::read(Bytes out, Time now) {
     }
     const ConstBytes packet = client->finder.packet();
     last_ = &*client;
-    client->asked = command_key(packet);
+    client->asked[client->next] = {command_key(packet), turn_};
+    client->next = (client->next + 1) % kAsked;
     const std::size_t size = std::min(packet.size(), out.size());
     std::copy_n(packet.begin(), size, out.begin());
     return size;
@@ -85,14 +86,27 @@ void TcpClients::vouch(Time now) {
   clients_.splice(clients_.begin(), clients_, holder);
 }
 
+// Who sent a command of this key last, of those that were vouched for or of the others; null: none of them. Loop bound: kClients * kAsked.
+TcpClients::Client* TcpClients::asker(std::uint32_t key, bool vouched) {
+  Client* last = nullptr;
+  std::uint64_t turn = 0;
+  for (Client& client : clients_) {
+    if (client.vouched != vouched) continue;
+    for (const Asked& asked : client.asked) {
+      if (asked.key != key || asked.turn <= turn) continue;
+      last = &client;
+      turn = asked.turn;
+    }
+  }
+  return last;
+}
+
 // A stranger's command may have the key of an operator's: the answer is the operator's then.
 TcpClients::Client* TcpClients::receiver(ConstBytes packet) {
   std::uint32_t key = 0;
   if (is_answer(packet, key)) {
     for (const bool vouched : {true, false}) {
-      for (Client& client : clients_) {
-        if (client.asked == key && client.vouched == vouched) return &client;
-      }
+      if (Client* const client = asker(key, vouched); client != nullptr) return client;
     }
   }
   return clients_.empty() ? nullptr : &clients_.front();

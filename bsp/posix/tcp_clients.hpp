@@ -4,10 +4,12 @@
 //   - until somebody else is vouched for (sent a valid command, with a key a signed one) while the holder never was, or was silent for 30
 //   s,
 //   - or until the holder has gone; one that nobody vouched for is sent away after 30 s where somebody else waits.
-// An answer to a command goes to who sent it, to one that was vouched for first. There are at most kClients; a further one takes the place
-// of the oldest that nobody vouched for, or else of the one that was silent longest, for 30 s at least, or is sent away.
+// An answer to a command goes to who sent it, for the last kAsked commands of each; where several sent the same one, to one that was
+// vouched for, and to who sent it last. There are at most kClients; a further one takes the place of the oldest that nobody vouched for, or
+// else of the one that was silent longest, for 30 s at least, or is sent away.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <list>
@@ -31,11 +33,12 @@ class TcpClients {
   using Time = std::chrono::steady_clock::time_point;
   static constexpr std::chrono::seconds kSilent{30};
   static constexpr std::size_t kClients = 4;
+  static constexpr std::size_t kAsked = 64;  // more than are answered in two frames
 
   explicit TcpClients(const Heard& heard) : heard_(heard) {}
 
   void add(Descriptor socket, Time now);
-  // A packet with right check sum, of one client after the other; 0: there is none.
+  // A packet with right checksum, of one client after the other; 0: there is none.
   std::size_t read(Bytes out, Time now);
   // The last packet came from who may command.
   void vouch(Time now);
@@ -47,6 +50,11 @@ class TcpClients {
  private:
   static constexpr std::size_t kLongestPacket = 65542;  // of space packets
   static constexpr std::size_t kReadBytes = 2048;       // of a call
+  // A command that may be answered yet: its first four bytes, as the answer repeats them; 0, which begins no command: none.
+  struct Asked {
+    std::uint32_t key = 0;
+    std::uint64_t turn = 0;  // in which it was read
+  };
   struct Client {
     Client(Descriptor taken, const Heard& packets, Time now)
         : socket(std::move(taken)),
@@ -61,7 +69,8 @@ class TcpClients {
     std::vector<std::uint8_t> rest;  // of a packet of telemetry that was begun
     Time heard, came;                // connected, or vouched for last; its last byte
     bool vouched = false;
-    std::uint32_t asked = 0;  // key of its last command
+    std::array<Asked, kAsked> asked{};
+    std::size_t next = 0;  // of asked
   };
   using Place = std::list<Client>::iterator;
 
@@ -71,12 +80,13 @@ class TcpClients {
   bool look(Client& client, Time now);
   static void receive(Client& client, Time now);
   static bool flush(Client& client);
+  Client* asker(std::uint32_t key, bool vouched);
   Client* receiver(ConstBytes packet);
 
   Heard heard_;
   std::list<Client> clients_;  // the holder first; then who waits, in the order of their turns
   Client* last_ = nullptr;     // whose packet was read last
-  std::uint32_t turn_ = 0;
+  std::uint64_t turn_ = 0;
 };
 
 }  // namespace lasso::posix

@@ -1,4 +1,4 @@
-// Whom a component at a UDP port tells its telemetry. Anybody may send datagrams there; who gets telemetry is
+// To whom a component at a UDP port sends its telemetry. Anybody may send datagrams there; who gets telemetry is
 //   - who was configured,
 //   - the first who was vouched for (sent a valid command, with a key a signed one), until it is silent for 30 s and another one comes,
 //   - up to three more of them, the one that was silent longest making way.

@@ -33,13 +33,15 @@ class Authenticator {
   virtual bool image_authentic(ConstBytes) { return false; }
 
   // Keys of commands have numbers. try_key: from now on packets by the key of this number are authentic as well as those by the key in use;
-  // the number is larger than that of the key in use. False, and nothing has changed: there is no such key.
+  // the number is larger than that of the key in use, by a small step: what is stepped over is used up. False, and nothing has changed:
+  // there is no such key.
   virtual bool try_key(std::uint32_t) { return false; }
   // Is the last authentic packet by the key on trial?
   virtual bool by_key_on_trial() const { return false; }
-  // Kept: the key on trial takes the place of the one in use, which is of no use any more, after a restart either. Otherwise the key on
-  // trial is. Numbers that have to grow go on. Nothing happens, nor is written, where there is no trial: it is called at each boundary.
-  virtual void end_key_trial(bool) {}
+  // Kept: the key on trial takes the place of the one in use, which is of no use any more, after a restart either. False: that could not be
+  // stored, nothing has changed, and the trial goes on. Not kept: the key on trial is of no use any more; what is returned is not looked
+  // at. Numbers that have to grow go on. Nothing happens, nor is written, where there is no trial: it is called at each boundary.
+  virtual bool end_key_trial(bool) { return false; }
 
  protected:
   ~Authenticator() = default;  // never deleted through this interface: no operator delete in flight code

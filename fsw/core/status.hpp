@@ -11,7 +11,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kBadMagic,      // not this format at all
     kBadVersion,    // this format, another version
     kBadLength,     // a length field contradicts the data
-    kBadCrc,        // check sum does not match
+    kBadCrc,        // checksum does not match
     kBadIndex,      // an index points outside its table
     kBadValue,      // a value outside its declared range
     kNotFinite,     // NaN or infinity

@@ -82,8 +82,8 @@ void CommandDispatcher::carry_out(const Command& command, Verification& verifica
   } else if (command.kind == CommandKind::kMode) {
     verification.mode_refusal = static_cast<std::uint8_t>(modes_.command_mode(static_cast<TrackingMode>(command.mode.mode)));
   } else if (command.kind == CommandKind::kStart) {
-    const auto way = static_cast<InitialPoseSource>(command.start.way);
-    verification.start_refusal = static_cast<std::uint8_t>(modes_.offer_start(way, offer_of(command.start)));
+    const auto source = static_cast<InitialPoseSource>(command.start.source);
+    verification.start_refusal = static_cast<std::uint8_t>(modes_.offer_start(source, offer_of(command.start)));
   } else {
     verification.service_refusal = static_cast<std::uint8_t>(commands_.serve(command, now_us));
   }

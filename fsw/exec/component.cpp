@@ -55,9 +55,9 @@ Status Component::begin(TimeUs boundary_0_us) {
   return Status::kOk;
 }
 
-StartRefusal Component::offer_start(InitialPoseSource way, const StartOffer& offer) {
+StartRefusal Component::offer_start(InitialPoseSource source, const StartOffer& offer) {
   const Running running(identity_);
-  return modes_.offer_start(way, offer);
+  return modes_.offer_start(source, offer);
 }
 
 Status Component::start_tracking(const Pose& T_sensor_target, const Twist& rates, TimeUs t_us) {

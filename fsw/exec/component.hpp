@@ -77,14 +77,14 @@ class Component {
   ImageRefusal roll_back_image() { return image_service_.roll_back(); }
 
   // Sets the time of boundary 0. Tracking starts from tracking.initial if the mission has one; where that cannot be right it is refused as
-  // any other start, and the other ways of the mission's order have their turn in bearing. kMissing without an image, kBadOrder when begun
-  // already.
+  // any other start, and the other sources of the mission's order have their turn in bearing. kMissing without an image, kBadOrder when
+  // begun already.
   Status begin(TimeUs boundary_0_us);
 
   // A pose to start from. By hand-over and uplink the track starts from it at the next boundary; a running track is left, its scan in
   // flight is not reported. From navigation and a priori it is kept, the last one of each, until a mode awaits a start and the mission's
   // order (start.first, ...) comes to it. What is refused changes nothing, and telemetry says so, too.
-  StartRefusal offer_start(InitialPoseSource way, const StartOffer& offer);
+  StartRefusal offer_start(InitialPoseSource source, const StartOffer& offer);
   // An uplink as uncertain as tracking.start_sigma_* say. kBadOrder before begin(), kNotFinite, kBadValue for every other refusal.
   Status start_tracking(const Pose& T_sensor_target, const Twist& rates, TimeUs t_us);
   // Standby, bearing, searching, reacquiring, tracking (from short_range), short_range (from tracking) or safe, at the next boundary; until

@@ -16,7 +16,7 @@ constexpr FaultRow kTable[] = {
   {F::kSensorSaturated,   2,  5, R::kReport},
   {F::kScanIncomplete,    1,  5, R::kReport},
   {F::kEstimateOverrun,   1,  5, R::kReport},
-  {F::kSlotSlip,          1, 250, R::kReport},  // a processor that is now and then late is told once
+  {F::kSlotSlip,          1, 250, R::kReport},  // a processor that is now and then late is reported once
   {F::kTimeJump,          1,  1, R::kReacquire},
   {F::kImplausiblePose,   1,  5, R::kReport},
   {F::kFilterDivergence,  3,  5, R::kReacquire},

@@ -37,7 +37,7 @@ constexpr std::size_t kFaults = 23;
 
 // In the order of their weight: of several, the heaviest is carried out.
 enum class FaultReaction : std::uint8_t {
-  kReport = 0,     // it is told; what belongs to it has been done where it was seen (a scan not used, a copy repaired)
+  kReport = 0,     // it is reported; what belongs to it has been done where it was seen (a scan not used, a copy repaired)
   kReacquire = 1,  // the prediction has lost its meaning: the target is looked for near it
   kMakeSafe = 2,   // mode safe
 };

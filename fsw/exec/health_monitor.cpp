@@ -36,11 +36,11 @@ FaultReaction HealthMonitor::answer_faults(const MissionParameters& parameters, 
   see_states(parameters);
   const FaultChanges changes = faults_.step(seen_);
   seen_ = FaultSet{};
-  tell(changes, now_us);
+  report(changes, now_us);
   return changes.reaction;
 }
 
-void HealthMonitor::tell(const FaultChanges& changes, TimeUs now_us) {
+void HealthMonitor::report(const FaultChanges& changes, TimeUs now_us) {
   for (const FaultRow& row : fault_table()) {
     if (changes.confirmed.has(row.fault)) telemetry_.raise<EventId::kFaultConfirmed>(row.fault, row.reaction);
     if (changes.cleared.has(row.fault)) telemetry_.raise<EventId::kFaultCleared>(row.fault);
@@ -61,7 +61,7 @@ void HealthMonitor::tell_counters(std::uint8_t sensors_failed) {
   watched_.sensors_failed = sensors_failed;
   if (watched_.dropped_packets != before.dropped_packets) telemetry_.raise<EventId::kPacketsDropped>(watched_.dropped_packets);
   if (watched_.slot_slips != before.slot_slips) telemetry_.raise<EventId::kSlotLate>(watched_.slot_slips);
-  // As a difference of words: with two bools compared in the loop, builds by g++ 12.2 at -O2 and -O3 for x86-64 tell a failure in each
+  // As a difference of words: with two bools compared in the loop, builds by g++ 12.2 at -O2 and -O3 for x86-64 report a failure in each
   // frame, those at -O1 do not; ut/exec tells them apart (AFailureIsToldOnceAndSoIsItsEnd).
   const std::uint32_t failed = watched_.sensors_failed, changed = failed ^ before.sensors_failed;
   for (std::uint32_t i = 0; i < kMaxSensors; ++i) {

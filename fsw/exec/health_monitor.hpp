@@ -1,4 +1,4 @@
-// What the component watches of itself, and tells: faults by their table (faults.hpp), counters whose changes are events, and who has to
+// What the component watches of itself, and reports: faults by their table (faults.hpp), counters whose changes are events, and who has to
 // check in before the watchdog is fed. Used by one thread.
 #pragma once
 
@@ -35,7 +35,7 @@ class HealthMonitor {
 
   // A boundary: feeds the watchdog where all have checked in.
   void feed_watchdog(bool estimation_idle);
-  // A boundary: what was seen goes through the table, what changes is told, and the heaviest reaction to it is returned.
+  // A boundary: what was seen goes through the table, what changes is reported, and the heaviest reaction to it is returned.
   FaultReaction answer_faults(const MissionParameters& parameters, TimeUs now_us);
   // The boundary's end: changes of counters that know no events. Bit i of `sensors_failed`: sensor i has failed. Loop bound: kMaxSensors.
   void tell_counters(std::uint8_t sensors_failed);
@@ -50,7 +50,7 @@ class HealthMonitor {
     std::uint8_t sensors_failed = 0;
   };
   void see_states(const MissionParameters& parameters);
-  void tell(const FaultChanges& changes, TimeUs now_us);
+  void report(const FaultChanges& changes, TimeUs now_us);
 
   const Executive& executive_;
   Telemetry& telemetry_;

@@ -1,5 +1,6 @@
-// Mission images in flight: commands that load, check and activate them, the trial of one that has become active, and what is told of them
-// and of memory that must not change. The buffers are kept by ImageKeeper (fsw/mission/image_keeper.hpp). Used by the acquisition thread.
+// Mission images in flight: commands that load, check and activate them, the trial of one that has become active, and what is reported of
+// them and of memory that must not change. The buffers are kept by ImageKeeper (fsw/mission/image_keeper.hpp). Used by the acquisition
+// thread.
 #pragma once
 
 #include <cstdint>

@@ -38,7 +38,9 @@ Status start_tracking(Component& component, const Pose& T_sensor_target, const T
 
 Status stop_tracking(Component& component) { return component.stop_tracking(); }
 
-StartRefusal offer_start(Component& component, InitialPoseSource way, const StartOffer& offer) { return component.offer_start(way, offer); }
+StartRefusal offer_start(Component& component, InitialPoseSource source, const StartOffer& offer) {
+  return component.offer_start(source, offer);
+}
 
 ModeRefusal command_mode(Component& component, TrackingMode mode) { return component.command_mode(mode); }
 

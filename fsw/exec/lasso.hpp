@@ -31,7 +31,7 @@ LoadFailure load_image(Component& component, Bytes image);
 Status begin(Component& component, TimeUs boundary_0_us);
 Status start_tracking(Component& component, const Pose& T_sensor_target, const Twist& rates, TimeUs t_us);
 Status stop_tracking(Component& component);
-StartRefusal offer_start(Component& component, InitialPoseSource way, const StartOffer& offer);
+StartRefusal offer_start(Component& component, InitialPoseSource source, const StartOffer& offer);
 ModeRefusal command_mode(Component& component, TrackingMode mode);
 void hold_mode(Component& component, bool held);
 // Bytes from the ground; see Component::receive and receive_packet.

@@ -31,33 +31,33 @@ void ModeManager::begin(TimeUs boundary_0_us) {
   request_.event = ModeEvent::kSeek;
 }
 
-StartRefusal ModeManager::offer_start(InitialPoseSource way, const StartOffer& offer) {
+StartRefusal ModeManager::offer_start(InitialPoseSource source, const StartOffer& offer) {
   if (!context_.executive.begun()) return StartRefusal::kNotBegun;
-  const auto index = static_cast<std::size_t>(way);
-  if (index == 0 || way == InitialPoseSource::kSearch || index >= kInitialPoseSources) return StartRefusal::kNoSuchSource;
+  const auto index = static_cast<std::size_t>(source);
+  if (index == 0 || source == InitialPoseSource::kSearch || index >= kInitialPoseSources) return StartRefusal::kNoSuchSource;
   TrackState tried = track_;
-  StartRefusal refusal = start_track(mission(), way, offer, context_.executive.next_boundary_us(), tried);
+  StartRefusal refusal = start_track(mission(), source, offer, context_.executive.next_boundary_us(), tried);
   if (safe_requested()) refusal = StartRefusal::kNotFromHere;
   if (refusal != StartRefusal::kNone) {
-    refuse_start(way, refusal);
+    refuse_start(source, refusal);
     return refusal;
   }
-  sources_.put(way, offer);
-  if (way == InitialPoseSource::kHandover || way == InitialPoseSource::kUplink) request_start(way);
+  sources_.put(source, offer);
+  if (source == InitialPoseSource::kHandover || source == InitialPoseSource::kUplink) request_start(source);
   return StartRefusal::kNone;
 }
 
 // What was asked for does not come later.
 void ModeManager::drop_request() {
-  if (request_.kind == Request::Kind::kStart) static_cast<void>(sources_.take(request_.way));
+  if (request_.kind == Request::Kind::kStart) static_cast<void>(sources_.take(request_.source));
   request_.kind = Request::Kind::kNone;
 }
 
 // A command takes the place of one that no boundary has carried out yet.
-void ModeManager::request_start(InitialPoseSource way) {
-  if (request_.kind == Request::Kind::kStart && request_.way != way) static_cast<void>(sources_.take(request_.way));
+void ModeManager::request_start(InitialPoseSource source) {
+  if (request_.kind == Request::Kind::kStart && request_.source != source) static_cast<void>(sources_.take(request_.source));
   request_.kind = Request::Kind::kStart;
-  request_.way = way;
+  request_.source = source;
 }
 
 ModeRefusal ModeManager::refusal_of(TrackingMode mode, ModeEvent& event) const {
@@ -98,8 +98,8 @@ void ModeManager::follow(TrackStep& step) {
   refuse_in(step);
   if (step.after.mode == TrackingMode::kTracking) sources_.put(InitialPoseSource::kSearch, StartOffer{});
   if (step.parts.inconsistent != kWhole) {
-    ++counters_.odd_parts;
-    context_.telemetry.raise<EventId::kPartOdd>(step.parts.inconsistent, step.parts.inconsistency_sigmas);
+    ++counters_.inconsistent_parts;
+    context_.telemetry.raise<EventId::kPartInconsistent>(step.parts.inconsistent, step.parts.inconsistency_sigmas);
   }
   if (step.event == ModeEvent::kFallBack) resume_former(step);
   const TrackingMode next = next_mode(track_.mode, step.event);
@@ -122,8 +122,8 @@ void ModeManager::refuse_in(const TrackStep& step) {
   const bool starting = track_.mode == TrackingMode::kStarting;
   const bool given_up = starting && step.event != ModeEvent::kPoseValid && next_mode(track_.mode, step.event) != track_.mode;
   const bool refused = step.refusal != StartRefusal::kNone;
-  if (refused) return refuse_start(starting ? track_.way : InitialPoseSource::kSearch, step.refusal);
-  if (given_up) refuse_start(track_.way, StartRefusal::kNotConfirmed);
+  if (refused) return refuse_start(starting ? track_.source : InitialPoseSource::kSearch, step.refusal);
+  if (given_up) refuse_start(track_.source, StartRefusal::kNotConfirmed);
 }
 
 // A filter that excludes what scan after scan says, or has no numbers any more, is the one that is wrong.
@@ -133,11 +133,11 @@ void ModeManager::watch_filter(const TrackStep& step) {
   context_.health.see(Fault::kFilterDivergence, implausible || !is_sound(step.after.filter));
 }
 
-void ModeManager::refuse_start(InitialPoseSource way, StartRefusal refusal) {
+void ModeManager::refuse_start(InitialPoseSource source, StartRefusal refusal) {
   ++counters_.refused_starts;
-  counters_.refused_way = way;
+  counters_.refused_source = source;
   counters_.refusal = refusal;
-  context_.telemetry.raise<EventId::kStartRefused>(way, refusal);
+  context_.telemetry.raise<EventId::kStartRefused>(source, refusal);
 }
 
 // At most four at a boundary (a scan's, a fault's, a command's, a start's), and a packet takes four: there is always room.
@@ -167,7 +167,7 @@ void ModeManager::apply_request() {
   const Request request = request_;
   request_.kind = Request::Kind::kNone;
   track_.held = held_;
-  if (request.kind == Request::Kind::kStart) try_start(request.way);
+  if (request.kind == Request::Kind::kStart) try_start(request.source);
   if (request.kind == Request::Kind::kCommand) take(request.event);
   try_sources();
 }
@@ -185,12 +185,12 @@ void ModeManager::take(ModeEvent event) {
   forget_before_trial();
 }
 
-void ModeManager::try_start(InitialPoseSource way) {
+void ModeManager::try_start(InitialPoseSource source) {
   const TrackingMode before = track_.mode;
   if (!track_.interrupts) former_ = track_.filter;
-  const StartRefusal refusal = start_track(mission(), way, sources_.take(way), context_.executive.next_slot_us(), track_);
+  const StartRefusal refusal = start_track(mission(), source, sources_.take(source), context_.executive.next_slot_us(), track_);
   if (refusal != StartRefusal::kNone) {
-    refuse_start(way, refusal);
+    refuse_start(source, refusal);
     return;
   }
   note_change({before, ModeEvent::kStart, track_.mode});
@@ -203,10 +203,10 @@ void ModeManager::try_start(InitialPoseSource way) {
 void ModeManager::try_sources() {
   if (track_.held) return;
   const std::uint32_t refused = counters_.refused_starts;
-  InitialPoseSource way = next_source();
-  while (properties(track_.mode).awaits_start && way != InitialPoseSource::kNone) {
-    take_source(way);
-    way = next_source();
+  InitialPoseSource source = next_source();
+  while (properties(track_.mode).awaits_start && source != InitialPoseSource::kNone) {
+    take_source(source);
+    source = next_source();
   }
   const bool left = properties(track_.mode).awaits_start && is_in_order(mission().parameters, InitialPoseSource::kSearch);
   if (left && counters_.refused_starts != refused) take(ModeEvent::kSeek);
@@ -216,9 +216,9 @@ InitialPoseSource ModeManager::next_source() const {
   return sources_.next(mission().parameters, properties(track_.mode).full_field && track_.bearing.started);
 }
 
-void ModeManager::take_source(InitialPoseSource way) {
-  if (way != InitialPoseSource::kSearch) return try_start(way);
-  static_cast<void>(sources_.take(way));
+void ModeManager::take_source(InitialPoseSource source) {
+  if (source != InitialPoseSource::kSearch) return try_start(source);
+  static_cast<void>(sources_.take(source));
   take(ModeEvent::kSearch);
 }
 
@@ -274,8 +274,8 @@ void ModeManager::leave_target() {
 void ModeManager::report(PoseTelemetry& report) {
   report.refused_starts = counters_.refused_starts;
   report.refused_commands = counters_.refused_commands;
-  report.odd_parts = counters_.odd_parts;
-  report.refused_way = static_cast<std::uint8_t>(counters_.refused_way);
+  report.inconsistent_parts = counters_.inconsistent_parts;
+  report.refused_source = static_cast<std::uint8_t>(counters_.refused_source);
   report.refusal = static_cast<std::uint8_t>(counters_.refusal);
   move_changes(report);
 }

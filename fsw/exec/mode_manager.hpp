@@ -19,7 +19,7 @@ class ModeManager {
   explicit ModeManager(const ComponentContext& context) : context_(context) {}
 
   // See the functions of the same name of Component.
-  StartRefusal offer_start(InitialPoseSource way, const StartOffer& offer);
+  StartRefusal offer_start(InitialPoseSource source, const StartOffer& offer);
   ModeRefusal command_mode(TrackingMode mode);
   void hold_mode(bool held) { held_ = held; }
   // The component begins: starts from the mission's pose, if it has one.
@@ -66,24 +66,24 @@ class ModeManager {
   struct Request {
     enum class Kind : std::uint8_t { kNone, kStart, kCommand };
     Kind kind = Kind::kNone;
-    InitialPoseSource way = InitialPoseSource::kNone;  // kStart
-    ModeEvent event = ModeEvent::kStop;                // kCommand
+    InitialPoseSource source = InitialPoseSource::kNone;  // kStart
+    ModeEvent event = ModeEvent::kStop;                   // kCommand
   };
   struct Counters {
-    std::uint32_t refused_starts = 0, refused_commands = 0, odd_parts = 0;
-    InitialPoseSource refused_way = InitialPoseSource::kNone;  // the last one
+    std::uint32_t refused_starts = 0, refused_commands = 0, inconsistent_parts = 0;
+    InitialPoseSource refused_source = InitialPoseSource::kNone;  // the last one
     StartRefusal refusal = StartRefusal::kNone;
   };
   const Mission& mission() const { return context_.images.view(0).mission; }
   ModeRefusal refusal_of(TrackingMode mode, ModeEvent& event) const;
-  void request_start(InitialPoseSource way);
+  void request_start(InitialPoseSource source);
   void drop_request();
   void take(ModeEvent event);
-  void try_start(InitialPoseSource way);
+  void try_start(InitialPoseSource source);
   void try_sources();
   InitialPoseSource next_source() const;
-  void take_source(InitialPoseSource way);
-  void refuse_start(InitialPoseSource way, StartRefusal refusal);
+  void take_source(InitialPoseSource source);
+  void refuse_start(InitialPoseSource source, StartRefusal refusal);
   void refuse_in(const TrackStep& step);
   void resume_former(TrackStep& step);
   void watch_filter(const TrackStep& step);

@@ -38,7 +38,7 @@ Mat12 as_states(const Mat6& covariance) {
 
 }  // namespace
 
-// J C J^T as J (J C)^T: C is symmetric, and so is the result but for rounding, of which the upper triangle is told.
+// J C J^T as J (J C)^T: C is symmetric, and so is the result but for rounding, of which the upper triangle is reported.
 Mat12 covariance_in(const NamedFrame& frame, const Pose& T_sensor_target, const Vec3& omega_radps, const Mat12& covariance) {
   const Vec3 r = lever(frame, T_sensor_target);
   const Mat3 R = to_matrix(frame.T_in_sensor.q);

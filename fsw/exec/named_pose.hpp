@@ -1,4 +1,4 @@
-// The pose of a frame on the target, told in a frame on what carries the sensors.
+// The pose of a frame on the target, stated in a frame on what carries the sensors.
 #pragma once
 
 #include "fsw/link/named_pose_report.hpp"

@@ -31,7 +31,7 @@ MissionParameters ParameterService::parameters_now() const {
 
 ServiceRefusal ParameterService::set(const ParameterCommand& command) {
   check();
-  const ParameterRefusal refusal = area_.set(command.parameter, command.value, parameters_now());
+  const ParameterRefusal refusal = area_.set(index_of_id(parameter_rows(), command.parameter), command.value, parameters_now());
   if (refusal != ParameterRefusal::kNone) return refusal_of(refusal);
   due_ = true;
   telemetry_.raise<EventId::kParameterChanged>(command.parameter, command.value);
@@ -39,14 +39,15 @@ ServiceRefusal ParameterService::set(const ParameterCommand& command) {
 }
 
 ServiceRefusal ParameterService::report(std::uint16_t parameter, TimeUs now_us) {
-  if (parameter >= parameter_rows().size()) return ServiceRefusal::kNoSuchParameter;
+  const std::size_t index = index_of_id(parameter_rows(), parameter);
+  if (index == parameter_rows().size()) return ServiceRefusal::kNoSuchParameter;
   check();
-  const ParameterRow& row = parameter_rows()[parameter];
+  const ParameterRow& row = parameter_rows()[index];
   ParameterTelemetry report;
-  report.parameter = parameter;
+  report.parameter = row.id;
   report.value = parameters_now().*row.member / row.to_si;
   report.image_value = images_.active().image_parameters().*row.member / row.to_si;
-  report.changed = area_.changed(parameter) ? 1 : 0;
+  report.changed = area_.changed(index) ? 1 : 0;
   telemetry_.downlink().send({kServiceParameter, kSubserviceParameterValue}, kParameter, report, now_us);
   return ServiceRefusal::kNone;
 }

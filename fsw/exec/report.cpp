@@ -81,8 +81,8 @@ void describe_bearing(const Bearing& bearing, PoseTelemetry& out) {
 void describe_candidate(const SearchCandidate& candidate, std::size_t index, PoseTelemetry& out) {
   double q[4], p[3];
   copy_pose(candidate.T_sensor_target, q, p);
-  for (std::size_t i = 0; i < 4; ++i) out.candidate_q[4 * index + i] = static_cast<float>(q[i]);
-  for (std::size_t i = 0; i < 3; ++i) out.candidate_p_m[3 * index + i] = static_cast<float>(p[i]);
+  for (std::size_t i = 0; i < 4; ++i) out.candidate_q_sensor_target[4 * index + i] = static_cast<float>(q[i]);
+  for (std::size_t i = 0; i < 3; ++i) out.candidate_p_sensor_target_m[3 * index + i] = static_cast<float>(p[i]);
 }
 
 void describe_search(const SearchResult& search, PoseTelemetry& out) {
@@ -101,8 +101,8 @@ void describe_search(const SearchResult& search, PoseTelemetry& out) {
 static_assert(kMaxParts <= 8, "a bit of parts_resting each");
 void describe_parts(const TrackStep& step, PoseTelemetry& out) {
   out.part = step.parts.scanned;
-  out.odd_part = step.parts.inconsistent;
-  out.odd_sigmas = static_cast<float>(step.parts.inconsistency_sigmas);
+  out.inconsistent_part = step.parts.inconsistent;
+  out.inconsistency_sigmas = static_cast<float>(step.parts.inconsistency_sigmas);
   if (!properties(step.after.mode).by_parts) return;
   for (std::size_t i = 0; i < kMaxParts; ++i) {
     if (rests(step.after.parts.of[i], step.registration.scan_id))
@@ -136,7 +136,7 @@ PoseTelemetry make_report(const Mission& mission, const TrackStep& step, const S
   out.age_us = bounded_age(t_publication_us - out.t_measurement_us);
   out.mode = static_cast<std::uint8_t>(step.after.mode);
   out.held = step.after.held ? 1 : 0;
-  out.start_way = static_cast<std::uint8_t>(step.after.way);
+  out.start_source = static_cast<std::uint8_t>(step.after.source);
   out.image_crc = mission.image_crc;
   out.software_version = software_version();
   out.software_build = software_build();

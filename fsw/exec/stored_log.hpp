@@ -1,6 +1,6 @@
 // The event log that survives a restart: a ring of records of 64 bytes in the store's event area, the oldest of which is replaced. What
 // decides poses or configuration, or needs somebody, is kept (is_kept); what a flood of commands could fill it with is not. A record is
-// written by one call of the store, and one that a loss of power cut short does not pass its check sum: it is a gap in the ring.
+// written by one call of the store, and one that a loss of power cut short does not pass its checksum: it is a gap in the ring.
 //
 //   0  sequence number, from 1   4  number of the start that it belongs to, from 1   8  time [us]   16  event   18  severity   19  bytes of
 //   its items   20  items   56  zeros   60  CRC-32C of the 60 bytes before
@@ -20,7 +20,7 @@ struct StoredEvent {
 
 class StoredLog {
  public:
-  // Finds where the ring ends. What was told before waits in `store` for a reader. Loop bound: the records of the area.
+  // Finds where the ring ends. What was reported before waits in `store` for a reader. Loop bound: the records of the area.
   void use(Store& store);
   bool in_use() const { return store_ != nullptr; }
 

@@ -1,5 +1,5 @@
-// What the component tells the ground: events, structures of telemetry where they are due, and the log of events that survives a restart.
-// Used by one thread.
+// What the component reports to the ground: events, structures of telemetry where they are due, and the log of events that survives a
+// restart. Used by one thread.
 #pragma once
 
 #include <cstddef>

@@ -1,8 +1,11 @@
 // Arm and fire: a hazardous command is carried out only if the command `arm` has named it before, at most kArmFrames frames ago. Any other
-// hazardous command in between ends that. Used by one thread.
+// hazardous command in between ends that. The time that is left is kept in three copies, voted, and repaired at each boundary: one flipped
+// bit arms nothing, and nothing for longer. Used by one thread.
 #pragma once
 
 #include <cstdint>
+
+#include "fsw/core/voted.hpp"
 
 namespace lasso {
 
@@ -28,18 +31,20 @@ enum class Hazard : std::uint8_t {
 class Arming {
  public:
   void arm(const CommandName& name);
-  void disarm() { frames_left_ = 0; }
+  void disarm() { frames_left_.set(0); }
   // A hazardous command has come. True: it was armed, and may be carried out.
   bool fire(const CommandName& name, Hazard hazard);
   // A frame ends. True: what was armed has just expired.
   bool pass_boundary();
 
-  bool armed() const { return frames_left_ - 1U < kArmFrames; }  // more are a flipped bit, and arm nothing
-  const CommandName& name() const { return name_; }              // of what was armed last
+  bool armed() const { return frames_left() > 0; }
+  const CommandName& name() const { return name_; }  // of what was armed last
 
  private:
+  std::uint32_t frames_left() const;  // 0: nothing is armed, or no two copies agree
+
   CommandName name_;
-  std::uint32_t frames_left_ = 0;
+  Voted<std::uint32_t> frames_left_{0};
 };
 
 }  // namespace lasso

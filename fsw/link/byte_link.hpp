@@ -1,5 +1,5 @@
 // What carries the link's bytes: a serial line, a socket, a file. Either a stream of bytes, in which packets are found by their headers
-// and check sums, or datagrams of one packet each. No call waits.
+// and checksums, or datagrams of one packet each. No call waits.
 #pragma once
 
 #include <cstddef>

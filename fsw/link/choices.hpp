@@ -27,7 +27,7 @@ inline constexpr Choice kPoseReasons[] = {
   {"only_bearing", "a full-field scan: no attitude is looked for", "none: this is what mode bearing does"},
   {"far_from_start", "farther from the prediction that it was to confirm than start.gate allows", "send a better pose to start from"},
   {"searching", "no attitude is known: it is looked for", "none: this is what mode searching does"},
-  {"part_disagrees", "of a part that is elsewhere than the others say", "look at odd_part: it may have moved, or have a wrong model"},
+  {"part_disagrees", "of a part that is elsewhere than the others say", "look at inconsistent_part: it may have moved, or have a wrong model"},
   {"too_fast", "the target is predicted to turn or move too far within the scan for its points to be brought to one time, or faster than 60 rad/s or 500 m/s", "start anew with the right rates; shorten scan.duration_s for a target that is so fast"},
   {"unchecked", "of a start: this scan would confirm it; a search of a scan that did is still to contradict it or not (start.check)", "none: wait for its end, some seconds"},
   {"contradicted", "of a start: a search of the scan that would confirm it found a pose that explains it better", "let the search find it, or start anew from a better pose"},
@@ -52,7 +52,7 @@ inline constexpr Choice kTrackingModes[] = {
   {"safe", "no scans, the laser inhibited; left by command alone", "look at the faults in telemetry; then command standby"},
 };
 inline constexpr Choice kModeEvents[] = {
-  {"start", "a pose to start from is given, or the next way's turn has come"},
+  {"start", "a pose to start from is given, or the next source's turn has come"},
   {"stop", "commanded to standby, or an image takes over that cannot go on with the track"},
   {"pose_valid", "a scan gave a valid pose"},
   {"pose_invalid", "a scan gave none, and the mode's frames are not used up"},
@@ -62,14 +62,14 @@ inline constexpr Choice kModeEvents[] = {
   {"reacquire", "commanded to look near the prediction, or the answer to a fault, or to an image that lost the track"},
   {"bearing_known", "a full-field scan gave a bearing"},
   {"bearing_unknown", "a full-field scan gave none"},
-  {"search", "commanded to look for the pose at any attitude, or the turn of that way to start"},
+  {"search", "commanded to look for the pose at any attitude, or the turn of search as a source"},
   {"near", "a scan gave a valid pose, within short_range.enter_m, or commanded to look at parts"},
   {"far", "a scan gave a valid pose, beyond short_range.leave_m, or commanded to leave the parts"},
   {"make_safe", "commanded, or the answer to a fault", "look at the faults in telemetry"},
   {"fall_back", "a start that interrupted a track is given up: the track is looked for again", "see start_refused"},
 };
-inline constexpr Choice kWays[] = {
-  {"none", "no way"},
+inline constexpr Choice kStartSources[] = {
+  {"none", "no source"},
   {"handover", "handed over by a long-range system"},
   {"navigation", "from a navigation system's stream"},
   {"apriori", "known a priori, from the mission image"},
@@ -79,7 +79,7 @@ inline constexpr Choice kWays[] = {
 inline constexpr Choice kStartRefusals[] = {
   {"none", "it was not refused"},
   {"not_begun", "the component has not begun", "begin, then send it again"},
-  {"no_such_way", "the number of the way is none by which poses are offered", "see start_way"},
+  {"no_such_source", "the number names no source from which poses are offered", "see start_source"},
   {"not_finite", "a value is not a number", "correct it"},
   {"not_unit", "the quaternion is not of unit length", "normalise it"},
   {"bad_covariance", "not symmetric, or not of variances and correlations", "correct it"},
@@ -151,7 +151,7 @@ inline constexpr Choice kPacketFaults[] = {
   {"none", "it is accepted"},
   {"truncated", "fewer bytes than its headers need, or than its length field says", "look at the link"},
   {"bad_length", "more bytes than its length field says, or not as many as its items need", "compare the sender's dictionary with this one"},
-  {"bad_crc", "the check sum does not match", "look at the link"},
+  {"bad_crc", "the checksum does not match", "look at the link"},
   {"bad_version", "the packet version number is not 0", "look at the sender"},
   {"bad_type", "a command where telemetry is expected, or the reverse", "look at the routing"},
   {"no_secondary_header", "the flag of the secondary header is 0", "look at the sender"},
@@ -176,7 +176,7 @@ inline constexpr Choice kServiceRefusals[] = {
   {"not_armed", "a hazardous command that the last arm did not name, or too long ago", "arm it, then send it again"},
   {"not_hazardous", "arm names no hazardous command", "see which commands are hazardous"},
   {"no_such_structure", "no structure has this number", "compare the sender's dictionary with this one"},
-  {"no_such_parameter", "no parameter has this number", "compare the sender's dictionary with this one"},
+  {"no_such_parameter", "no parameter has this id", "compare the sender's dictionary with this one"},
   {"fixed_parameter", "it is the mission image's alone", "upload an image that has it"},
   {"out_of_limits", "the value is outside of the parameter's limits, or not whole", "see the parameter's limits"},
   {"inconsistent", "the value contradicts another parameter", "change the other one first (short_range.leave_m stays above enter_m)"},
@@ -188,19 +188,21 @@ inline constexpr Choice kServiceRefusals[] = {
   {"incomplete", "parts of the image are missing", "send those that the packet image names"},
   {"image_busy", "the other image is being checked or converted, or may still be wanted back", "wait for the event image_ready, or image_confirmed"},
   {"image_not_ready", "the other buffer has no image that could be active", "load one, and send check_image"},
-  {"other_image", "the image is not the one that is named", "compare the check sums"},
+  {"other_image", "the image is not the one that is named", "compare the checksums"},
   {"does_not_fit", "its filter.period_s is not that of the active image", "load it at a start"},
   {"not_allowed", "the area is not written to", "load into other_image"},
   {"mode_safe", "the laser stays dark in mode safe", "command standby first"},
   {"no_store", "the board has no non-volatile store", ""},
   {"store_failed", "the store does not take it", "look at the board's store; try again"},
-  {"nothing_stored", "the store has no such record that is right", "save it first; ask for an event that was told"},
+  {"nothing_stored", "the store has no such record that is right", "save it first; ask for an event that was reported"},
   {"other_table", "it was saved by software with other parameters", "set the parameters again, and save them"},
   {"no_calibration", "the active image has no such calibration", "name a sensor and a calibration of the mission; see its calibration lists"},
-  {"no_such_key", "the board has no key of this number, or no keys; numbers grow", "name the number after that of the key in use"},
+  {"no_such_key", "the board has no key of this number, or no keys; numbers grow, and are used up at 4294967295",
+   "name the number after that of the key in use; where they are used up, start with a new master key"},
   {"key_on_trial", "another key is on trial", "confirm it, or wait until it is given up"},
   {"no_key_on_trial", "no key of this number is on trial", "send change_key"},
   {"not_by_new_key", "the command is not signed with the key that it confirms", "sign it with the new key"},
+  {"not_kept", "the board cannot store that this key is in use: a restart would lose it", "look at the board's store; confirm it again before the trial ends"},
 };
 inline constexpr Choice kStructureNames[] = {
   {"none", "no structure"},
@@ -224,7 +226,7 @@ inline constexpr Choice kImageStates[] = {
   {"refused", "it is wrong, or has decayed"},
   {"storing", "it is right, and is being written to the store"},
   {"converting", "its numbers become those of the processor"},
-  {"sealing", "check sums are taken of it as it lies in memory"},
+  {"sealing", "checksums are taken of it as it lies in memory"},
   {"ready", "it can be made active"},
 };
 inline constexpr Choice kScrubbedAreas[] = {
@@ -240,7 +242,7 @@ inline constexpr Choice kStatuses[] = {
   {"bad_magic", "not this format at all"},
   {"bad_version", "this format, another version"},
   {"bad_length", "a length contradicts the data"},
-  {"bad_crc", "a check sum does not match"},
+  {"bad_crc", "a checksum does not match"},
   {"bad_index", "an index points outside its table"},
   {"bad_value", "a value is outside its range, or does not fit this board"},
   {"not_finite", "a value is not a number"},
@@ -266,7 +268,7 @@ inline constexpr Enumeration kPoseReason{"pose_reason", Span<const Choice>(kPose
 inline constexpr Enumeration kStopReason{"stop_reason", Span<const Choice>(kStopReasons)};
 inline constexpr Enumeration kTrackingMode{"mode", Span<const Choice>(kTrackingModes)};
 inline constexpr Enumeration kModeEvent{"mode_event", Span<const Choice>(kModeEvents)};
-inline constexpr Enumeration kStartWay{"start_way", Span<const Choice>(kWays)};
+inline constexpr Enumeration kStartSource{"start_source", Span<const Choice>(kStartSources)};
 inline constexpr Enumeration kStartRefusal{"start_refusal", Span<const Choice>(kStartRefusals)};
 inline constexpr Enumeration kBearingReason{"bearing_reason", Span<const Choice>(kBearingReasons)};
 inline constexpr Enumeration kSearchOutcome{"search_outcome", Span<const Choice>(kSearchOutcomes)};

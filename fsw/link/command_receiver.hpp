@@ -21,7 +21,7 @@ class CommandReceiver {
   // From now on commands are authenticated. It outlives the receiver.
   void use_authenticator(Authenticator& authenticator) { authenticator_ = &authenticator; }
 
-  // Takes bytes until a packet is whole; how many. Loop bound: the bytes, each at most one check sum over kMaxCommandBytes.
+  // Takes bytes until a packet is whole; how many. Loop bound: the bytes, each at most one checksum over kMaxCommandBytes.
   std::size_t take(ConstBytes input);
   // No more bytes will come of what seems to have begun: looks behind it. False: nothing waits. Loop bound as of take().
   bool give_up();

@@ -22,7 +22,7 @@ inline constexpr TypedRow<HoldCommand> kHold[] = {
   make_row<&HoldCommand::held>(1, "held", kYesNo, "no mode ends because its frames are used up, and no start is taken but by command"),
 };
 inline constexpr TypedRow<StartCommand> kStart[] = {
-  make_row<&StartCommand::way>(1, "way", kStartWay, "by which the pose comes: handover or uplink start at once, navigation waits for its turn"),
+  make_row<&StartCommand::source>(1, "start_source", kStartSource, "from which the pose comes: handover or uplink start at once, navigation waits for its turn"),
   make_row<&StartCommand::t_us>(2, "t_us", "us", kAny, "time at which pose and rates are stated"),
   make_row<&StartCommand::q_sensor_target>(3, "q_sensor_target", "1", kAny, "Hamilton quaternion x, y, z, w of unit length, target to sensor"),
   make_row<&StartCommand::p_sensor_target_m>(4, "p_sensor_target_m", "m", kAny, "target's origin in the sensor frame"),
@@ -46,10 +46,10 @@ inline constexpr TypedRow<StructureCommand> kPeriod[] = {
   make_row<&StructureCommand::period_frames>(2, "period_frames", "1", kAny, "frames from one report to the next, 0: when there is news"),
 };
 inline constexpr TypedRow<ParameterCommand> kParameter[] = {
-  make_row<&ParameterCommand::parameter>(1, "parameter", "1", kAny, "its number"),
+  make_row<&ParameterCommand::parameter>(1, "parameter", "1", kAny, "its id"),
 };
 inline constexpr TypedRow<ParameterCommand> kSetParameter[] = {
-  make_row<&ParameterCommand::parameter>(1, "parameter", "1", kAny, "its number"),
+  make_row<&ParameterCommand::parameter>(1, "parameter", "1", kAny, "its id"),
   make_row<&ParameterCommand::value>(2, "value", "as it says", kAny, "new value, in the parameter's unit"),
 };
 inline constexpr TypedRow<StoredCommand> kStored[] = {
@@ -61,7 +61,7 @@ inline constexpr TypedRow<CalibrationCommand> kCalibration[] = {
   make_row<&CalibrationCommand::calibration>(2, "calibration", "1", Range{0, kMaxCalibrations - 1.0}, "of those that the active image has for it, from 0 in the mission's order"),
 };
 inline constexpr TypedRow<KeyCommand> kKey[] = {
-  make_row<&KeyCommand::number>(1, "number", "1", Range{1, 4294967295.0}, "of the new key; the key itself is never sent"),
+  make_row<&KeyCommand::number>(1, "number", "1", Range{1, 4294967295.0}, "of the new key, larger by a small step than that of the key in use; the key itself is never sent"),
 };
 inline constexpr TypedRow<TimeCommand> kTime[] = {
   make_row<&TimeCommand::component_us>(1, "component_us", "us", kCucRange, "a moment in the component's time, that of the items ..."),
@@ -95,9 +95,9 @@ inline constexpr PacketRow kCommands[] = {
   {"offer_start", PacketType::kCommand, kServiceFunction, kSubservicePerform, true, 3, Span<const ItemRow>(kStartItems.rows),
    "a pose to start from"},
   {"enable_event", PacketType::kCommand, kServiceEvent, kSubserviceEnableEvent, false, 0, Span<const ItemRow>(kEventItems.rows),
-   "the event is told again"},
+   "the event is reported again"},
   {"disable_event", PacketType::kCommand, kServiceEvent, kSubserviceDisableEvent, false, 0, Span<const ItemRow>(kEventItems.rows),
-   "the event is not told any more"},
+   "the event is not reported any more"},
   {"report_disabled_events", PacketType::kCommand, kServiceEvent, kSubserviceReportDisabled, false, 0, Span<const ItemRow>(),
    "asks for the packet disabled_events"},
   {"arm", PacketType::kCommand, kServiceFunction, kSubservicePerform, true, 4, Span<const ItemRow>(kArmItems.rows),

@@ -100,6 +100,7 @@ enum class ServiceRefusal : std::uint8_t {
   kKeyOnTrial = 27,
   kNoKeyOnTrial = 28,
   kNotByNewKey = 29,
+  kNotKept = 30,
 };
 
 struct ModeCommand {
@@ -109,8 +110,8 @@ struct HoldCommand {
   std::uint8_t held = 0;
 };
 struct StartCommand {
-  std::uint8_t way = 0;  // InitialPoseSource
-  TimeUs t_us = 0;       // at which the rest is stated
+  std::uint8_t source = 0;  // InitialPoseSource
+  TimeUs t_us = 0;          // at which the rest is stated
   double q_sensor_target[4] = {0, 0, 0, 1};
   double p_sensor_target_m[3] = {};
   double omega_radps[3] = {};  // sensor axes
@@ -129,7 +130,7 @@ struct StoredCommand {
   std::uint8_t count = 0;  // of those that end with it
 };
 struct ParameterCommand {
-  std::uint16_t parameter = 0;  // row of parameter_rows()
+  std::uint16_t parameter = 0;  // ParameterRow::id
   double value = 0;             // kSetParameter: in the row's unit
 };
 struct CalibrationCommand {

@@ -63,7 +63,7 @@ void EventLog::record(EventId id, Span<const EventValue> values) {
   EventRecord event;
   event.id = id;
   event.severity = row.severity;
-  event.told = !state.disabled;
+  event.reported = !state.disabled;
   event.t_us = now_us_;
   ByteWriter writer{Bytes(event.items)};
   for (std::size_t i = 0; i < values.size(); ++i) write_value(Span<const WireType>(row.types)[i], values[i], writer);
@@ -76,13 +76,13 @@ bool EventLog::admit(EventId id, State& state) {
   if (throttle.most == 0) return true;
   if (state.frames_left == 0 || state.frames_left > throttle.frames) {  // more are a flipped bit
     state.frames_left = throttle.frames;
-    state.told = 0;
+    state.reported = 0;
   }
-  if (state.told >= throttle.most) {
+  if (state.reported >= throttle.most) {
     ++state.suppressed;
     return false;
   }
-  ++state.told;
+  ++state.reported;
   return true;
 }
 
@@ -100,12 +100,14 @@ DisabledEvents EventLog::disabled() const {
   return disabled;
 }
 
+// A flipped bit can make a window end early, or begin anew: what was suppressed in it is told after two windows at the latest.
 void EventLog::pass_boundary() {
   records_.clear();
   for (std::size_t i = 0; i < kEvents; ++i) {
     State& state = states_[i];
-    if (state.frames_left == 0) continue;
-    --state.frames_left;
+    const std::uint16_t longest = kRows.of[i].throttle.frames;
+    if (state.frames_left > longest) state.frames_left = longest;
+    if (state.frames_left > 0) --state.frames_left;
     if (state.frames_left > 0 || state.suppressed == 0) continue;
     if (!state.disabled) raise<EventId::kEventsSuppressed>(i, state.suppressed);
     state.suppressed = 0;

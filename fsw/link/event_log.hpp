@@ -1,6 +1,6 @@
 // Where events are raised: `log.raise<EventId::kScanLost>(sensor, scan_id)`, with as many values as the event's row has items, checked
 // while it is compiled. What is raised waits for the frame's end: so many and no more, the rest is counted. An event that is disabled is
-// not told, but stays a record for the log that survives a restart; each is throttled as its row says. Used by one thread.
+// not reported, but stays a record for the log that survives a restart; each is throttled as its row says. Used by one thread.
 #pragma once
 
 #include <cstddef>
@@ -42,9 +42,9 @@ class EventLog {
   bool set_enabled(std::uint16_t event, bool enabled);
   DisabledEvents disabled() const;
 
-  // What was raised since the last boundary and is to be told, or kept, in that order.
+  // What was raised since the last boundary and is to be reported, or kept, in that order.
   Span<const EventRecord> records() const { return records_.span(); }
-  // A frame ends, its records have been told: raises what was suppressed, if its time is over, and dropped. Loop bound: kEvents.
+  // A frame ends, its records have been reported: raises what was suppressed, if its time is over, and dropped. Loop bound: kEvents.
   void pass_boundary();
 
   std::uint32_t dropped() const { return dropped_; }
@@ -52,7 +52,7 @@ class EventLog {
  private:
   struct State {
     bool disabled = false;
-    std::uint16_t told = 0;         // of the present window
+    std::uint16_t reported = 0;     // of the present window
     std::uint16_t frames_left = 0;  // of it; 0: none
     std::uint32_t suppressed = 0;   // in it
   };

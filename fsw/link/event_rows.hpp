@@ -8,7 +8,7 @@
 
 namespace lasso {
 
-// At most so many in so many frames; what is beyond is counted, and the count told (events_suppressed). 0: each one is told.
+// At most so many in so many frames; what is beyond is counted, and the count reported (events_suppressed). 0: each one is reported.
 struct Throttle {
   std::uint16_t most;
   std::uint16_t frames;
@@ -45,7 +45,7 @@ inline constexpr ItemRow kModeChanged[] = {
   choice_item(3, "to", kTrackingMode, "mode after"),
 };
 inline constexpr ItemRow kStartRefused[] = {
-  choice_item(1, "way", kStartWay, "by which the pose came"),
+  choice_item(1, "start_source", kStartSource, "from which the pose came"),
   choice_item(2, "refusal", kStartRefusal, "why it is refused"),
 };
 inline constexpr ItemRow kCommandRefused[] = {
@@ -86,16 +86,16 @@ inline constexpr ItemRow kEstimateLate[] = {
 inline constexpr ItemRow kSlotLate[] = {
   number_item(1, "slot_slips", WireType::kU32, "1", "slots that began later than their own length, so far"),
 };
-inline constexpr ItemRow kPartOdd[] = {
+inline constexpr ItemRow kPartInconsistent[] = {
   number_item(1, "part", WireType::kU8, "1", "part of the target"),
   number_item(2, "sigmas", WireType::kF32, "1", "how far it is from the one it is farthest from"),
 };
 inline constexpr ItemRow kEventsSuppressed[] = {
   {1, "event", WireType::kU16, 1, "1", Range{1, static_cast<double>(kEvents) - 1}, &Names::kEvent, "that was raised too often"},
-  number_item(2, "suppressed", WireType::kU32, "1", "times that it was not told"),
+  number_item(2, "suppressed", WireType::kU32, "1", "times that it was not reported"),
 };
 inline constexpr ItemRow kEventsDropped[] = {
-  number_item(1, "dropped", WireType::kU32, "1", "events that were not told, so far"),
+  number_item(1, "dropped", WireType::kU32, "1", "events that were not reported, so far"),
 };
 inline constexpr ItemRow kArmed[] = {
   number_item(1, "service", WireType::kU8, "1", "of the hazardous command"),
@@ -135,7 +135,7 @@ inline constexpr ItemRow kFaultCleared[] = {
   choice_item(1, "fault", kFault, "that was not seen for as many frames as its row asks for"),
 };
 inline constexpr ItemRow kParameterChanged[] = {
-  number_item(1, "parameter", WireType::kU16, "1", "its number"),
+  number_item(1, "parameter", WireType::kU16, "1", "its id"),
   number_item(2, "value", WireType::kF64, "as it says", "in the parameter's unit"),
 };
 inline constexpr ItemRow kParametersRestored[] = {
@@ -170,7 +170,7 @@ inline constexpr EventRow kRows[] = {
   {EventId::kBytesSkipped, "bytes_skipped", Severity::kLow, {1, 25}, Span<const ItemRow>(kBytesSkipped),
    "bytes from the ground belonged to no packet", "noise on the link, or a damaged command", "look at the link; send again what was not answered"},
   {EventId::kPacketsDropped, "packets_dropped", Severity::kMedium, {1, 25}, Span<const ItemRow>(kPacketsDropped),
-   "telemetry is lost", "the queue was full: the link takes less than there is to tell", "look at the link, or ask for less"},
+   "telemetry is lost", "the queue was full: the link takes less than there is to report", "look at the link, or ask for less"},
   {EventId::kSensorChanged, "sensor_changed", Severity::kInformative, {4, 25}, Span<const ItemRow>(kSensorChanged),
    "another sensor takes the scans", "the item reason says it", ""},
   {EventId::kSensorFailed, "sensor_failed", Severity::kMedium, {4, 250}, Span<const ItemRow>(kSensorOnly),
@@ -183,10 +183,10 @@ inline constexpr EventRow kRows[] = {
    "a frame is reported without a pose", "the estimate of its scan was not done at its boundary", "look at the processor's load; give the period more time"},
   {EventId::kSlotLate, "slot_late", Severity::kLow, {1, 25}, Span<const ItemRow>(kSlotLate),
    "a slot began later than its own length", "the processor was busy elsewhere", "look at the processor's load"},
-  {EventId::kPartOdd, "part_odd", Severity::kLow, {4, 25}, Span<const ItemRow>(kPartOdd),
+  {EventId::kPartInconsistent, "part_inconsistent", Severity::kLow, {4, 25}, Span<const ItemRow>(kPartInconsistent),
    "a part of the target disagrees with the others", "it has moved, or its scans deceive", "look at the part; leave it out of the mission image if it has moved"},
   {EventId::kEventsSuppressed, "events_suppressed", Severity::kInformative, kEach, Span<const ItemRow>(kEventsSuppressed),
-   "an event happened more often than it was told", "its row allows so many in so many frames", "see that event"},
+   "an event happened more often than it was reported", "its row allows so many in so many frames", "see that event"},
   {EventId::kEventsDropped, "events_dropped", Severity::kLow, {1, 25}, Span<const ItemRow>(kEventsDropped),
    "events are lost", "more were raised in a frame than it holds", ""},
   {EventId::kCommandArmed, "command_armed", Severity::kInformative, kEach, Span<const ItemRow>(kArmed),

@@ -41,7 +41,7 @@ enum class EventId : std::uint16_t {
   kScanLost = 11,
   kEstimateLate = 12,
   kSlotLate = 13,
-  kPartOdd = 14,
+  kPartInconsistent = 14,
   kEventsSuppressed = 15,
   kEventsDropped = 16,
   kCommandArmed = 17,
@@ -80,7 +80,7 @@ struct EventRecord {
   EventId id = EventId::kNone;
   Severity severity = Severity::kNone;
   std::uint8_t size = 0;  // of `items`
-  bool told = true;       // false: it is disabled, and for the stored log alone
+  bool reported = true;   // false: it is disabled, and for the stored log alone
   TimeUs t_us = 0;
   std::uint8_t items[kMaxEventBytes] = {};
 };
@@ -89,7 +89,7 @@ constexpr std::size_t kMaxEventPacketBytes = kPacketHeaderBytes + kPacketNumberB
 // A whole packet; `header` says counts and time. The size, 0 when `out` is too small.
 std::size_t encode_event(const EventRecord& event, PacketHeader header, Bytes out);
 
-// One that was told before, as the board's store has kept it.
+// One that was reported before, as the board's store has kept it.
 constexpr std::uint8_t kSubserviceReportStored = 128;
 constexpr std::uint8_t kSubserviceStoredEvent = 129;
 struct StoredEventTelemetry {

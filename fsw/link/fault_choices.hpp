@@ -21,11 +21,11 @@ inline constexpr Choice kFaultTexts[] = {
   {"filter_divergence", "the filter excludes what scan after scan says, or has numbers that are none", "none: the track starts anew near the prediction"},
   {"mode_corrupt", "a copy of the mode differed from two others, or from the step that led to it; repaired", "none if it is rare: a flipped bit"},
   {"mode_lost", "no two copies of the mode agreed", "command standby, then start again"},
-  {"image_corrupt", "the mission image in memory differed from its check sum, or which one is active from its copies; repaired", "none if it is rare: a flipped bit"},
+  {"image_corrupt", "the mission image in memory differed from its checksum, or which one is active from its copies; repaired", "none if it is rare: a flipped bit"},
   {"image_lost", "the mission image in memory is corrupt and cannot be repaired", "load it again"},
-  {"parameters_corrupt", "a copy of the parameters differed from its check sum; repaired from the other one", "none if it is rare: a flipped bit"},
+  {"parameters_corrupt", "a copy of the parameters differed from its checksum; repaired from the other one", "none if it is rare: a flipped bit"},
   {"parameters_lost", "both copies of the parameters are corrupt; the mission image's hold", "set them again"},
-  {"code_corrupt", "the code in memory differs from its check sum", "load the code anew from where the board boots; a reset alone takes its sums anew, and hides it"},
+  {"code_corrupt", "the code in memory differs from its checksum", "load the code anew from where the board boots; a reset alone takes its sums anew, and hides it"},
   {"link_silent", "no valid command came for longer than link.silence_max_s", "look at the link"},
   {"memory_high", "more than nine tenths of the telemetry queue were full at a boundary", "look at the link; raise its rate or ask for less"},
   {"watchdog_reset", "the component starts after its watchdog", "look at the events before the reset; then command standby"},
@@ -33,7 +33,7 @@ inline constexpr Choice kFaultTexts[] = {
   {"laser_corrupt", "a copy of the laser's permission differed from two others, and is repaired; where all differ the laser is inhibited", "none if it is rare: a flipped bit"},
 };
 inline constexpr Choice kFaultReactions[] = {
-  {"report", "it is told; what belongs to it was done where it was seen"},
+  {"report", "it is reported; what belongs to it was done where it was seen"},
   {"reacquire", "the prediction has lost its meaning: the target is looked for near it"},
   {"make_safe", "mode safe", "look at the faults in telemetry; then command standby"},
 };

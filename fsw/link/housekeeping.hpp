@@ -27,7 +27,7 @@ class Housekeeping {
   bool set_period(std::uint16_t structure, std::uint16_t frames);
   bool ask(std::uint16_t structure);
 
-  // Shall the structure be sent in this frame, where `news` says that there is something new to tell? Who asks sends it.
+  // Shall the structure be sent in this frame, where `news` says that there is something new to report? Who asks sends it.
   bool due(std::uint16_t structure, bool news);
   // It was asked for, and has not been due since.
   bool asked(std::uint16_t structure) const;

@@ -6,7 +6,7 @@ namespace lasso {
 
 void KeyChange::use_authenticator(Authenticator& authenticator) {
   authenticator_ = &authenticator;
-  authenticator.end_key_trial(false);
+  static_cast<void>(authenticator.end_key_trial(false));
   frames_left_ = 0;
 }
 
@@ -21,7 +21,7 @@ ServiceRefusal KeyChange::begin(std::uint32_t number) {
 ServiceRefusal KeyChange::confirm(std::uint32_t number) {
   if (frames_left_ == 0 || number != number_) return ServiceRefusal::kNoKeyOnTrial;
   if (!authenticator_->by_key_on_trial()) return ServiceRefusal::kNotByNewKey;
-  authenticator_->end_key_trial(true);
+  if (!authenticator_->end_key_trial(true)) return ServiceRefusal::kNotKept;
   frames_left_ = 0;
   return ServiceRefusal::kNone;
 }
@@ -31,7 +31,7 @@ bool KeyChange::pass_boundary() {
   if (authenticator_ == nullptr) return false;
   const bool open = frames_left_ != 0;
   if (open) frames_left_ = std::min(frames_left_, kKeyTrialFrames) - 1;  // a flipped bit makes no trial longer than two
-  if (frames_left_ == 0) authenticator_->end_key_trial(false);
+  if (frames_left_ == 0) static_cast<void>(authenticator_->end_key_trial(false));
   return open && frames_left_ == 0;
 }
 

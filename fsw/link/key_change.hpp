@@ -19,7 +19,7 @@ class KeyChange {
 
   // kNoSuchKey, kKeyOnTrial.
   ServiceRefusal begin(std::uint32_t number);
-  // By the last command that was authentic. kNoKeyOnTrial, kNotByNewKey.
+  // By the last command that was authentic. kNoKeyOnTrial, kNotByNewKey; kNotKept, and the trial goes on.
   ServiceRefusal confirm(std::uint32_t number);
   // A frame ends. True: the key on trial has just been given up.
   bool pass_boundary();

@@ -52,7 +52,7 @@ inline constexpr TypedRow<StoredEventTelemetry> kStoredEvent[] = {
   make_row<&StoredEventTelemetry::items>(7, "items", "1", kAny, "the bytes of the event's items, then zeros"),
 };
 inline constexpr TypedRow<ParameterTelemetry> kParameter[] = {
-  make_row<&ParameterTelemetry::parameter>(1, "parameter", "1", kAny, "its number"),
+  make_row<&ParameterTelemetry::parameter>(1, "parameter", "1", kAny, "its id"),
   make_row<&ParameterTelemetry::value>(2, "value", "as it says", kAny, "in the parameter's unit; from the next boundary on"),
   make_row<&ParameterTelemetry::image_value>(3, "image_value", "as it says", kAny, "the mission image's value"),
   make_row<&ParameterTelemetry::changed>(4, "changed", kYesNo, "it was changed by command"),

@@ -22,7 +22,7 @@ class PacketFinder {
   PacketFinder(PacketType type, Bytes buffer, std::uint16_t apid = kApid) : type_(type), apid_(apid), buffer_(buffer) {}
 
   // Takes bytes until a packet is whole or `input` has no more, and returns how many it took. Call it again with the others. Loop bound:
-  // bytes of buffer and input; each costs at most one check sum over the buffer.
+  // bytes of buffer and input; each costs at most one checksum over the buffer.
   std::size_t take(ConstBytes input);
 
   // For where the rest of a packet will not come: drops the byte at which it seemed to begin, so that the next take() looks behind it.

@@ -66,8 +66,8 @@ struct PoseTelemetry {
   std::uint8_t change_from[kPoseChanges] = {};   // TrackingMode
   std::uint8_t change_event[kPoseChanges] = {};  // ModeEvent
   std::uint8_t change_to[kPoseChanges] = {};     // TrackingMode
-  std::uint8_t start_way = 0;                    // InitialPoseSource of the present track
-  std::uint8_t refused_way = 0;                  // InitialPoseSource of the last pose to start from that was refused
+  std::uint8_t start_source = 0;                 // InitialPoseSource of the present track
+  std::uint8_t refused_source = 0;               // InitialPoseSource of the last pose to start from that was refused
   std::uint8_t refusal = 0;                      // StartRefusal: why
   std::uint32_t refused_starts = 0;
   std::uint32_t refused_commands = 0;
@@ -87,15 +87,15 @@ struct PoseTelemetry {
   float search_ratio = 0;
   float search_disagreement = 0;
   std::uint32_t search_work = 0;
-  TimeUs t_search_us = 0;                            // at which the candidates are stated
-  float candidate_q[4 * kTelemetryCandidates] = {};  // as q_sensor_target, one after the other
-  float candidate_p_m[3 * kTelemetryCandidates] = {};
+  TimeUs t_search_us = 0;                                          // at which the candidates are stated
+  float candidate_q_sensor_target[4 * kTelemetryCandidates] = {};  // as q_sensor_target, one after the other
+  float candidate_p_sensor_target_m[3 * kTelemetryCandidates] = {};
 
-  std::uint8_t part = 0;           // that the scan looked at, from 1 in the image's order; 0: the target as a whole
-  std::uint8_t parts_resting = 0;  // bit i: part i + 1 is left out for some scans
-  std::uint8_t odd_part = 0;       // that this scan showed to disagree with the others; 0: none
-  float odd_sigmas = 0;            // how far
-  std::uint32_t odd_parts = 0;     // so far
+  std::uint8_t part = 0;                 // that the scan looked at, from 1 in the image's order; 0: the target as a whole
+  std::uint8_t parts_resting = 0;        // bit i: part i + 1 is left out for some scans
+  std::uint8_t inconsistent_part = 0;    // that this scan showed to disagree with the others; 0: none
+  float inconsistency_sigmas = 0;        // how far
+  std::uint32_t inconsistent_parts = 0;  // so far
 
   std::uint8_t sensor = 0;           // that took the scan: 0 the mission's [sensor], then the further ones in the image's order
   std::uint8_t sensor_reason = 0;    // SensorReason: why it was chosen

@@ -29,7 +29,7 @@ inline constexpr TypedRow<S> kRows[] = {
   make_row<&S::lost_thin>(16, "lost_thin", "1", kAny, "complete scans lost because too few samples were well formed"),
   make_row<&S::lost_stuck>(17, "lost_stuck", "1", kAny, "scans lost because the rays went nearly one way"),
   make_row<&S::frames>(18, "frames", "1", kAny, "frames of the line that came whole and right"),
-  make_row<&S::damaged_frames>(19, "damaged_frames", "1", kAny, "frames of wrong length or check sum, and what resembles their beginning"),
+  make_row<&S::damaged_frames>(19, "damaged_frames", "1", kAny, "frames of wrong length or checksum, and what resembles their beginning"),
   make_row<&S::missing_frames>(20, "missing_frames", "1", kAny, "gaps in the sequence of the frames"),
   make_row<&S::repeated_frames>(21, "repeated_frames", "1", kAny, "frames that came again"),
   make_row<&S::unknown_frames>(22, "unknown_frames", "1", kAny, "frames that are right, and say nothing that is defined"),

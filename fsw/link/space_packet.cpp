@@ -102,7 +102,7 @@ std::size_t packet_size(ConstBytes stream) {
 PacketFault check_packet(ConstBytes packet, PacketType type, std::size_t least, std::uint16_t apid) {
   const PacketFault fault = check_size(packet, least);
   if (fault != PacketFault::kNone) return fault;
-  // The check sum over data and its own check sum is zero.
+  // The checksum over data and its own checksum is zero.
   if (crc16_ccitt(packet) != 0) return PacketFault::kBadCrc;
   return check_header(read_primary_header(packet), type, apid);
 }

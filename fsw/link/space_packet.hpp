@@ -39,7 +39,7 @@ enum class [[nodiscard]] PacketFault : std::uint8_t{
     kNone = 0,
     kTruncated = 1,          // fewer bytes than its headers need, or than its length field says
     kBadLength = 2,          // more bytes than its length field says, or not as many as its rows need
-    kBadCrc = 3,             // the check sum does not match
+    kBadCrc = 3,             // the checksum does not match
     kBadVersion = 4,         // the packet version number is not 0
     kBadType = 5,            // a command where telemetry is expected, or the reverse
     kNoSecondaryHeader = 6,  // the flag of the secondary header is 0

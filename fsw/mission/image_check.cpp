@@ -318,7 +318,7 @@ std::uint32_t ImageCheck::check_whole_sum(std::uint32_t words) {
   if (summed_ < summed.size()) return used;
   ByteReader trailer(image_.bytes.subspan(image_.bytes.size() - 4, 4));
   free_from_ = directory_bytes(image_.table_count);
-  enter(Stage::kDirectory, trailer.u32() == sum_ ? LoadFailure{} : failure(Status::kBadCrc, "image check sum"));
+  enter(Stage::kDirectory, trailer.u32() == sum_ ? LoadFailure{} : failure(Status::kBadCrc, "image checksum"));
   return used;
 }
 
@@ -355,7 +355,7 @@ std::uint32_t ImageCheck::check_table_sum(std::uint32_t words) {
   const std::uint32_t used = check_sum(ConstBytes(table.data, table.bytes()), words);
   if (summed_ < table.bytes()) return used;
   ++table_;
-  const LoadFailure found = sum_ == stated_sum_ ? LoadFailure{} : failure(Status::kBadCrc, "table check sum", table_);
+  const LoadFailure found = sum_ == stated_sum_ ? LoadFailure{} : failure(Status::kBadCrc, "table checksum", table_);
   enter(table_ < image_.table_count ? Stage::kDirectory : Stage::kNumbers, found);
   return used;
 }

@@ -36,7 +36,7 @@ inline bool failed(const LoadFailure& f) { return f.status != Status::kOk; }
 
 inline bool is_unit(double squared) { return squared > 0.999 && squared < 1.001; }
 
-// Everything that one image says by itself (format, check sums, indices, ranges, capacities), some of it at a time; the images of its
+// Everything that one image says by itself (format, checksums, indices, ranges, capacities), some of it at a time; the images of its
 // parts are but words to it.
 class ImageCheck {
  public:

@@ -45,13 +45,13 @@ void ImageKeeper::accept_unsigned() {
 LoadFailure ImageKeeper::start(Bytes image, std::size_t sensors) {
   started_ = false;  // whatever follows, the image that was loaded before may have been overwritten
   select(image.data() == slots_[1].buffer().data() ? 1 : 0);
-  ImageSlot& slot = slots_[active_];
+  ImageSlot& slot = slots_[active_index()];
   if (image.data() != slot.buffer().data() || image.size() > slot.buffer().size()) slot.use(image);
   slot.open(static_cast<std::uint32_t>(image.size()));
   slot.begin_check();
   while (slot.state() == ImageState::kChecking) slot.step(kAllWords, sensors);
   stored_bytes_ = 0;
-  while (slot.state() == ImageState::kStoring) store_slice(active_);
+  while (slot.state() == ImageState::kStoring) store_slice(active_index());
   slot.step(kAllWords, sensors);
   slot.step(kAllWords, sensors);
   started_ = slot.state() == ImageState::kReady;
@@ -70,7 +70,7 @@ LoadFailure ImageKeeper::start_stored(std::size_t sensors) {
   started_ = first_right || second_right;
   before_ = first_right && second_right;
   confirmed_ = true;
-  return slots_[active_].result();
+  return slots_[active_index()].result();
 }
 
 bool ImageKeeper::start_from(std::size_t number, std::size_t sensors) {
@@ -103,9 +103,9 @@ ImageRefusal ImageKeeper::open(std::uint32_t bytes, std::uint32_t crc) {
   map_.begin((bytes + kLoadBlockBytes - 1) / kLoadBlockBytes);
   crc_ = crc;
   before_ = false;
-  stored_[1 - active_] = false;
-  scrub_.forget(active_ == 0 ? ScrubArea::kImage1 : ScrubArea::kImage0);
-  scrub_.forget(active_ == 0 ? ScrubArea::kViews1 : ScrubArea::kViews0);
+  stored_[1 - active_index()] = false;
+  scrub_.forget(active_index() == 0 ? ScrubArea::kImage1 : ScrubArea::kImage0);
+  scrub_.forget(active_index() == 0 ? ScrubArea::kViews1 : ScrubArea::kViews0);
   return ImageRefusal::kNone;
 }
 
@@ -151,17 +151,16 @@ void ImageKeeper::select(std::size_t number) {
 }
 
 bool ImageKeeper::keep_selection() {
-  auto number = static_cast<std::uint32_t>(active_ % 2);  // where no two copies agree
-  static_cast<void>(selected_.get(number));
-  const bool right = selected_.agreed() && number == active_ && slots_[number].state() == ImageState::kReady;
-  select(number);
-  slots_[number].keep_ready();
+  const std::size_t voted = active_index();
+  const bool right = selected_.agreed() && voted == active_ && slots_[voted].state() == ImageState::kReady;
+  select(voted);
+  slots_[voted].keep_ready();
   return right;
 }
 
 void ImageKeeper::swap() {
   invariant(other().state() == ImageState::kReady, "an image that is not ready becomes active");
-  select(1 - active_);
+  select(1 - active_index());
   before_ = true;
   confirmed_ = false;
 }
@@ -169,14 +168,15 @@ void ImageKeeper::swap() {
 // Nothing is written where the store would select it anyway. A header that cannot be written leaves the selection as it is.
 void ImageKeeper::confirm() {
   confirmed_ = true;
-  if (store_ == nullptr || !stored_[active_]) return;
-  if (newer_of(*store_, area_of(0), area_of(1)) == static_cast<Newer>(active_)) return;
+  const std::size_t number = active_index();
+  if (store_ == nullptr || !stored_[number]) return;
+  if (newer_of(*store_, area_of(0), area_of(1)) == static_cast<Newer>(number)) return;
   const std::uint32_t sequence = next_sequence(*store_, area_of(0), area_of(1));
-  stored_[active_] = write_header(*store_, area_of(active_), {sequence, active().bytes(), stored_sums_[active_]}) == Status::kOk;
+  stored_[number] = write_header(*store_, area_of(number), {sequence, active().bytes(), stored_sums_[number]}) == Status::kOk;
 }
 
 void ImageKeeper::step(std::size_t sensors) {
-  if (spare().state() == ImageState::kStoring) return store_slice(1 - active_);
+  if (spare().state() == ImageState::kStoring) return store_slice(1 - active_index());
   spare().step(kImageWordsPerSlot, sensors);
 }
 
@@ -239,7 +239,7 @@ MemoryFinding ImageKeeper::repair() {
   if (finding.area == ScrubArea::kImage0 || finding.area == ScrubArea::kImage1) {
     finding.repaired = repair_image(number, finding.chunk);
     if (finding.repaired) slots_[number].make_views();  // they may have been made of what was wrong
-    if (!finding.repaired && number != active_) slots_[number].refuse(Status::kBadCrc, "the image has decayed in memory");
+    if (!finding.repaired && number != active_index()) slots_[number].refuse(Status::kBadCrc, "the image has decayed in memory");
   } else if (finding.area != ScrubArea::kCode) {
     slots_[number].make_views();
     finding.repaired = true;

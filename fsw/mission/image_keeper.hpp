@@ -52,7 +52,7 @@ class ImageKeeper {
   void use_authenticator(Authenticator& authenticator);
   void accept_unsigned();
   // At a boundary, while nobody uses the active image.
-  void apply_parameters() { slots_[active_].make_views(); }
+  void apply_parameters() { slots_[active_index()].make_views(); }
   // Code that must not change. kOverCapacity. Loop bound: its bytes.
   Status watch_code(ConstBytes code);
 
@@ -62,10 +62,10 @@ class ImageKeeper {
   LoadFailure start_stored(std::size_t sensors);
   bool started() const { return started_; }
 
-  const MissionView& view(SensorNumber sensor) const { return slots_[active_].view(sensor); }
-  const ImageSlot& active() const { return slots_[active_]; }
-  const ImageSlot& other() const { return slots_[1 - active_]; }
-  std::uint8_t active_number() const { return static_cast<std::uint8_t>(active_); }
+  const MissionView& view(SensorNumber sensor) const { return slots_[active_index()].view(sensor); }
+  const ImageSlot& active() const { return slots_[active_index()]; }
+  const ImageSlot& other() const { return slots_[1 - active_index()]; }
+  std::uint8_t active_number() const { return static_cast<std::uint8_t>(active_index()); }
   ConstBytes code() const { return code_; }
 
   // An image of so many bytes, its signature included, with this CRC-32C (its last four bytes before that) is to come into the other
@@ -91,7 +91,7 @@ class ImageKeeper {
   void step(std::size_t sensors);
   // One slot's share of the scrub, of slots of this length. True: something was found, which repair() answers.
   bool scrub(DurationUs slot_us);
-  // At a boundary, while nobody uses the active image. What cannot be repaired is told again in each pass.
+  // At a boundary, while nobody uses the active image. What cannot be repaired is reported again in each pass.
   MemoryFinding repair();
   bool found() const { return scrub_.found(); }
 
@@ -99,16 +99,22 @@ class ImageKeeper {
 
   const LoadMap& map() const { return map_; }
   std::uint32_t opened_crc() const { return crc_; }
-  bool other_stored() const { return stored_[1 - active_]; }
-  bool active_stored() const { return stored_[active_]; }
+  bool other_stored() const { return stored_[1 - active_index()]; }
+  bool active_stored() const { return stored_[active_index()]; }
   const Scrub& scrub_state() const { return scrub_; }
   DurationUs scrub_pass_us() const { return pass_us_; }  // of the last whole pass
 
  private:
   static constexpr std::size_t kMaxCodeChunks = 256;
+  // Which image is active, 0 or 1, at any time: by the copies, or by the number itself where no two of them agree.
+  std::size_t active_index() const {
+    auto voted = static_cast<std::uint32_t>(active_);
+    static_cast<void>(selected_.get(voted));
+    return voted % 2;
+  }
   void select(std::size_t number);
   bool other_fits() const;
-  ImageSlot& spare() { return slots_[1 - active_]; }
+  ImageSlot& spare() { return slots_[1 - active_index()]; }
   bool start_from(std::size_t number, std::size_t sensors);
   bool may_store(std::size_t number) const;
   void store_slice(std::size_t number);
@@ -120,7 +126,7 @@ class ImageKeeper {
 
   ImageSlot slots_[2];
   std::size_t active_ = 0;
-  Voted<std::uint32_t> selected_{0};  // the same: a flip must not make the other image the active one, nor keep the scrub off this one
+  Voted<std::uint32_t> selected_{0};  // the same: a flip must not make the other image the active one, nor lead out of slots_
   bool started_ = false;
   bool before_ = false;    // the other image was active before
   bool confirmed_ = true;  // the active image

@@ -5,7 +5,7 @@
 
 namespace lasso {
 
-// What the component tells the pose of, and in which frame: both are known without error, one on the target, one on what carries the
+// What the component reports the pose of, and in which frame: both are known without error, one on the target, one on what carries the
 // sensors.
 struct NamedFrame {
   Pose T_target_of;

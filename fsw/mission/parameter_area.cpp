@@ -18,7 +18,7 @@ bool is_marked(const std::uint32_t (&marks)[kMaxParameters / 32], std::size_t ro
   return (Span<const std::uint32_t>(marks)[row / 32] >> row % 32 & 1U) != 0;
 }
 
-// Of the keys in their order: numbers of rows mean the same where it is the same.
+// Of the keys in their order. Where it is the same, so are the places of the rows, by which a saved set names its values.
 std::uint32_t table_sum() {
   std::uint32_t sum = 0;
   for (const ParameterRow& row : parameter_rows()) {

@@ -48,7 +48,7 @@ class ParameterArea {
   // Writes what was changed over the image's values.
   void apply(MissionParameters& parameters) const;
 
-  // Compares both copies with their check sums, and repairs. Loop bound: their bytes.
+  // Compares both copies with their checksums, and repairs. Loop bound: their bytes.
   AreaState check();
 
   // For tests that damage memory.

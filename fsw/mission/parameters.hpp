@@ -1,5 +1,5 @@
 // The mission's numbers as the flight component uses them: SI, radians. One row per parameter says everything about it; the mission
-// compiler, the image loader, the reports and (later) the parameter service read the same rows.
+// compiler, the image loader, the reports and the parameter service read the same rows.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,7 @@ struct MissionParameters : SensorParameters {
   // [tracking] validity and loss
   double start_sigma_m, start_sigma_rad, inliers_min, inlier_share_min, agreement_min, sigma_position_max_m, sigma_attitude_max_rad,
       innovation_max, coast_frames, hysteresis, recover, reacquire_frames;
-  // [start] the ways to a pose to start from
+  // [start] the sources of a pose to start from
   double start_frames, start_inlier_share_min, start_gate, start_check, start_age_max_s, start_first, start_second, start_third,
       start_fourth, start_fifth;
   // [search] the first pose without any prior attitude
@@ -55,10 +55,14 @@ struct MissionParameters : SensorParameters {
 
 enum class ParameterKind : std::uint8_t { kReal, kInteger, kBoolean, kChoice };
 
+// A new row gets this id and raises it by one. The id of a row that goes is never used again.
+constexpr std::uint16_t kNextParameterId = 102;
+
 struct ParameterRow {
-  const char* key;   // TOML path, e.g. "sensor.fov_half_x_deg"
-  const char* unit;  // unit of the TOML value: "m", "deg", "1", ...
-  ParameterKind kind;
+  std::uint16_t id;    // names the parameter on the link, wherever its row stands
+  ParameterKind kind;  // beside the id, where it takes no room in a flight image
+  const char* key;     // TOML path, e.g. "sensor.fov_half_x_deg"
+  const char* unit;    // unit of the TOML value: "m", "deg", "1", ...
   double MissionParameters::*member;
   double to_si;                     // member = value * to_si
   double minimum, maximum, preset;  // in the TOML unit, inclusive
@@ -66,9 +70,12 @@ struct ParameterRow {
   const char* meaning;              // one line
 };
 
+// In the order of the values of a mission image.
 Span<const ParameterRow> parameter_rows();
 // The first kSensorValues of them: those of a sensor.
 Span<const ParameterRow> sensor_rows();
+// The place of the row with this id; rows.size() where no row has it. Loop bound: the rows.
+std::size_t index_of_id(Span<const ParameterRow> rows, std::uint16_t id);
 double SensorParameters::*sensor_member(const ParameterRow& row);
 
 MissionParameters preset_parameters();

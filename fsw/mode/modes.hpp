@@ -21,7 +21,7 @@ enum class TrackingMode : std::uint8_t {
 };
 
 enum class ModeEvent : std::uint8_t {
-  kStart = 0,           // a pose to start from is given, or the next way's turn has come
+  kStart = 0,           // a pose to start from is given, or the next source's turn has come
   kStop = 1,            // commanded to standby, or an image takes over that cannot go on with the track
   kPoseValid = 2,       // a scan gave a valid pose
   kPoseInvalid = 3,     // a scan gave none, and the mode's frames are not used up
@@ -31,7 +31,7 @@ enum class ModeEvent : std::uint8_t {
   kReacquire = 7,       // commanded to look near the prediction, or the answer to a fault, or to an image that lost the track
   kBearingKnown = 8,    // a full-field scan gave a bearing
   kBearingUnknown = 9,  // a full-field scan gave none
-  kSearch = 10,         // commanded to look for the pose at any attitude, or the turn of that way to start
+  kSearch = 10,         // commanded to look for the pose at any attitude, or the turn of search as a source
   kNear = 11,           // a scan gave a valid pose, within short_range.enter_m; or commanded to look at parts
   kFar = 12,            // a scan gave a valid pose, beyond short_range.leave_m; or commanded to leave the parts
   kMakeSafe = 13,       // commanded, or the answer to a fault
@@ -56,7 +56,7 @@ struct ModeProperties {
   bool confirms;      // a valid pose has to agree with the prediction, and starts the filter anew
   bool takes_up;      // a valid pose has to pass by tracking.hysteresis
   bool by_parts;      // scans look at a part of the target each, where there is one to look at
-  bool awaits_start;  // the next way to a pose to start from is taken by itself, in the mission's order
+  bool awaits_start;  // a pose to start from is taken from the next source by itself, in the mission's order
   const char* name;
   const char* meaning;
 };

@@ -76,8 +76,8 @@ std::size_t find_inconsistent(const Parts& parts, const Comparison& comparison, 
 void reinstate(const Parts& parts, const Comparison& comparison, std::size_t inconsistent, PartsState& state) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     PartRecord& record = state.of[i];
-    if (!comparison.disagree[i][inconsistent] || comparison.votes[i] != 1 || !record.told) continue;
-    record.told = false;
+    if (!comparison.disagree[i][inconsistent] || comparison.votes[i] != 1 || !record.reported) continue;
+    record.reported = false;
     record.rests_until = 0;
   }
 }
@@ -216,7 +216,7 @@ PoseReason compare_parts(const Mission& mission, const Parts& parts, const Regis
     return registration.reason;
   }
   record.measured = true;
-  record.told = false;
+  record.reported = false;
   record.scan_id = scan_id;
   record.off = pose_difference(registration.T_sensor_target, predicted.T_sensor_target);
   const Mat6 own = registration.covariance - registration.common * registration.common.transpose();
@@ -226,10 +226,10 @@ PoseReason compare_parts(const Mission& mission, const Parts& parts, const Regis
   const std::size_t inconsistent = find_inconsistent(parts, comparison, scanned);
   if (comparison.votes[inconsistent] == 0) return PoseReason::kValid;
   reinstate(parts, comparison, inconsistent, state);
-  if (!state.of[inconsistent].told) {
+  if (!state.of[inconsistent].reported) {
     report.inconsistent = static_cast<PartNumber>(inconsistent + 1);
     report.inconsistency_sigmas = square_root(comparison.farthest2[inconsistent]);
-    state.of[inconsistent].told = true;
+    state.of[inconsistent].reported = true;
     state.of[inconsistent].rests_until = rests_until;
   }
   return inconsistent == scanned ? PoseReason::kPartDisagrees : PoseReason::kValid;

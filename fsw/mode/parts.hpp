@@ -29,7 +29,7 @@ struct PartRecord {
   std::uint32_t scan_id = 0;        // of its last valid pose
   Vec6 off = Vec6::Zero();          // of the target by that pose from the filter's prediction, as pose_difference()
   PackedCovariance covariance;      // of both
-  bool told = false;                // as inconsistent: it rests for that
+  bool reported = false;            // as inconsistent: it rests for that
   std::uint32_t rests_until = 0;    // first scan that may look at it again
   std::uint32_t last_asked_id = 0;  // last scan that was planned to look at it
 };

@@ -84,7 +84,7 @@ bool Searcher::offer(const Mission& mission, TrackStep& step) {
     begin(mission.parameters, number_, false);
     return false;
   }
-  state.way = InitialPoseSource::kSearch;
+  state.source = InitialPoseSource::kSearch;
   return true;
 }
 

@@ -68,13 +68,14 @@ struct SourceOrder {
 };
 
 SourceOrder order_of(const MissionParameters& p) {
-  const auto way = [](double choice) { return static_cast<InitialPoseSource>(static_cast<std::uint8_t>(choice)); };
-  return {{way(p.start_first), way(p.start_second), way(p.start_third), way(p.start_fourth), way(p.start_fifth)}};
+  const auto source_of = [](double choice) { return static_cast<InitialPoseSource>(static_cast<std::uint8_t>(choice)); };
+  return {
+      {source_of(p.start_first), source_of(p.start_second), source_of(p.start_third), source_of(p.start_fourth), source_of(p.start_fifth)}};
 }
 
-std::size_t index_of(InitialPoseSource way) {
-  const auto index = static_cast<std::size_t>(way);
-  invariant(index < kInitialPoseSources, "no such way to start");
+std::size_t index_of(InitialPoseSource source) {
+  const auto index = static_cast<std::size_t>(source);
+  invariant(index < kInitialPoseSources, "no such source of a start");
   return index;
 }
 
@@ -95,9 +96,9 @@ FilterNoise filter_noise(const MissionParameters& p) {
   return {p.acceleration_mps2, p.angular_acceleration_radps2, p.precession, p.common_memory_s};
 }
 
-bool is_in_order(const MissionParameters& p, InitialPoseSource way) {
+bool is_in_order(const MissionParameters& p, InitialPoseSource source) {
   bool named = false;
-  for (const InitialPoseSource one : order_of(p).sources) named = named || one == way;
+  for (const InitialPoseSource one : order_of(p).sources) named = named || one == source;
   return named;
 }
 
@@ -124,36 +125,36 @@ StartRefusal start_from(const Mission& mission, const StartOffer& offer, TimeUs 
   return StartRefusal::kNone;
 }
 
-void InitialPoseSources::put(InitialPoseSource way, const StartOffer& offer) {
-  offers_[index_of(way)] = offer;
-  fresh_[index_of(way)] = true;
+void InitialPoseSources::put(InitialPoseSource source, const StartOffer& offer) {
+  offers_[index_of(source)] = offer;
+  fresh_[index_of(source)] = true;
 }
 
-const StartOffer& InitialPoseSources::take(InitialPoseSource way) {
-  fresh_[index_of(way)] = false;
-  return offers_[index_of(way)];
+const StartOffer& InitialPoseSources::take(InitialPoseSource source) {
+  fresh_[index_of(source)] = false;
+  return offers_[index_of(source)];
 }
 
 InitialPoseSource InitialPoseSources::next(const MissionParameters& p, bool may_search) const {
   InitialPoseSource again = InitialPoseSource::kNone;
-  for (const InitialPoseSource way : order_of(p).sources) {
-    const bool possible = may_search || way != InitialPoseSource::kSearch;
-    if (possible && fresh_[index_of(way)]) return way;
-    if (possible && way == InitialPoseSource::kSearch) again = way;
+  for (const InitialPoseSource source : order_of(p).sources) {
+    const bool possible = may_search || source != InitialPoseSource::kSearch;
+    if (possible && fresh_[index_of(source)]) return source;
+    if (possible && source == InitialPoseSource::kSearch) again = source;
   }
   return again;
 }
 
-const char* to_string(InitialPoseSource way) {
+const char* to_string(InitialPoseSource source) {
   static constexpr const char* kNames[] = {"none", "handover", "navigation", "apriori", "uplink", "search"};
-  const auto index = static_cast<std::size_t>(way);
+  const auto index = static_cast<std::size_t>(source);
   return index < kInitialPoseSources ? kNames[index] : "unknown";
 }
 
 const char* to_string(StartRefusal refusal) {
-  static constexpr const char* kNames[] = {"none",           "not_begun",     "no_such_way",   "not_finite",  "not_unit",
-                                           "bad_covariance", "from_future",   "too_old",       "too_fast",    "out_of_reach",
-                                           "not_at_bearing", "not_confirmed", "not_from_here", "contradicted"};
+  static constexpr const char* kNames[] = {"none",           "not_begun",     "no_such_source", "not_finite",  "not_unit",
+                                           "bad_covariance", "from_future",   "too_old",        "too_fast",    "out_of_reach",
+                                           "not_at_bearing", "not_confirmed", "not_from_here",  "contradicted"};
   const auto index = static_cast<std::size_t>(refusal);
   return index < sizeof(kNames) / sizeof(kNames[0]) ? kNames[index] : "unknown";
 }

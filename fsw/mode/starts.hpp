@@ -1,6 +1,6 @@
-// The ways to a pose to start from: handed over by a long-range system, from a navigation system's stream, known a priori (mission file),
-// sent by the ground, or recognised (fsw/mode/searcher.hpp). Each is validated, and moved to now; a scan has to confirm it before it is
-// tracked.
+// The sources of a pose to start from: handed over by a long-range system, from a navigation system's stream, known a priori (mission
+// file), sent by the ground, or recognised (fsw/mode/searcher.hpp). Each is validated, and moved to now; a scan has to confirm it before it
+// is tracked.
 #pragma once
 
 #include <cstdint>
@@ -40,15 +40,15 @@ enum class StartRefusal : std::uint8_t {
   kNotFromHere = 12,   // the table of modes has no start from the present one
   kContradicted = 13,  // a search of the scan that confirmed it found another pose (start.check)
 };
-const char* to_string(InitialPoseSource way);  // never null
-const char* to_string(StartRefusal refusal);   // never null
+const char* to_string(InitialPoseSource source);  // never null
+const char* to_string(StartRefusal refusal);      // never null
 
 // What the filter starts from, and moves by, in this mission.
 FilterStart filter_start(const MissionParameters& parameters, const StartOffer& offer);
 FilterNoise filter_noise(const MissionParameters& parameters);
 
-// Does the mission's order of ways name this one?
-bool is_in_order(const MissionParameters& parameters, InitialPoseSource way);
+// Does the mission's order of sources name this one?
+bool is_in_order(const MissionParameters& parameters, InitialPoseSource source);
 
 // Believed as tracking.start_sigma_m and _deg say.
 StartOffer rough_offer(const MissionParameters& parameters, const Pose& T_sensor_target, const Twist& rates, TimeUs t_us);
@@ -57,14 +57,14 @@ StartOffer rough_offer(const MissionParameters& parameters, const Pose& T_sensor
 // it is older than bearing.memory_s.
 StartRefusal start_from(const Mission& mission, const StartOffer& offer, TimeUs now_us, const BearingState& bearing, FilterState& filter);
 
-// The last offer of each way that has not been tried. Search needs no offer: it is untried until its turn comes, and again once a track
+// The last offer of each source that has not been tried. Search needs no offer: it is untried until its turn comes, and again once a track
 // holds; where all else has been tried, its turn comes again.
 class InitialPoseSources {
  public:
-  void put(InitialPoseSource way, const StartOffer& offer);
-  // The offer of the way; it counts as tried from now on.
-  const StartOffer& take(InitialPoseSource way);
-  // The first way in the mission's order that has not been tried; kNone if there is none. Search only where `may_search`.
+  void put(InitialPoseSource source, const StartOffer& offer);
+  // The offer of the source; it counts as tried from now on.
+  const StartOffer& take(InitialPoseSource source);
+  // The first source in the mission's order that has not been tried; kNone if there is none. Search only where `may_search`.
   InitialPoseSource next(const MissionParameters& parameters, bool may_search) const;
 
  private:

@@ -69,7 +69,7 @@ PoseReason confirm(const MissionParameters& p, const ModeProperties& mode, bool 
 
 // A start by search has been compared with all other poses, and one whose attitude is known excludes them.
 bool is_checked(const MissionParameters& p, const TrackState& state) {
-  return p.start_check > 0.5 && state.mode == TrackingMode::kStarting && state.way != InitialPoseSource::kSearch && state.rough;
+  return p.start_check > 0.5 && state.mode == TrackingMode::kStarting && state.source != InitialPoseSource::kSearch && state.rough;
 }
 
 // By the sensor's axis about which it is known worst.
@@ -127,9 +127,9 @@ ModeEvent event_of_valid(const MissionParameters& p, const TrackState& state) {
   return state.mode == TrackingMode::kShortRange ? ModeEvent::kFar : ModeEvent::kPoseValid;
 }
 
-// Where no scan confirms a start, a search is a way that is left, unless it was its own; its turn comes in bearing.
+// Where no scan confirms a start, a search is a source that is left, unless the start is its own; its turn comes in bearing.
 bool leaves_search(const MissionParameters& p, const TrackState& state) {
-  return state.mode == TrackingMode::kStarting && state.way != InitialPoseSource::kSearch && is_in_order(p, InitialPoseSource::kSearch);
+  return state.mode == TrackingMode::kStarting && state.source != InitialPoseSource::kSearch && is_in_order(p, InitialPoseSource::kSearch);
 }
 
 ModeEvent event_of(const MissionParameters& p, const TrackState& state, bool valid) {
@@ -207,7 +207,7 @@ void count_and_change(const MissionParameters& p, bool valid, TrackStep& step) {
   change_mode(step.event, state);
 }
 
-StartRefusal start_track(const Mission& mission, InitialPoseSource way, const StartOffer& offer, TimeUs t_us, TrackState& state) {
+StartRefusal start_track(const Mission& mission, InitialPoseSource source, const StartOffer& offer, TimeUs t_us, TrackState& state) {
   if (!has_transition(state.mode, ModeEvent::kStart)) return StartRefusal::kNotFromHere;
   const bool interrupts = would_interrupt(state);
   const StartRefusal refusal = start_from(mission, offer, t_us, state.bearing, state.filter);
@@ -217,7 +217,7 @@ StartRefusal start_track(const Mission& mission, InitialPoseSource way, const St
   state.missed = 0;
   state.check = StartCheck{};
   state.rough = is_attitude_rough(state.filter);
-  state.way = way;
+  state.source = source;
   return StartRefusal::kNone;
 }
 

@@ -43,7 +43,7 @@ struct TrackState {
   TrackingMode mode = TrackingMode::kStandby;
   std::uint16_t missed = 0;  // scans without a valid pose since the last one, or since the mode began; at most 65535
   bool held = false;         // no mode ends because its frames are used up
-  InitialPoseSource way = InitialPoseSource::kNone;  // by which the present track was started
+  InitialPoseSource source = InitialPoseSource::kNone;  // of the present track's start
   bool rough = false;       // its attitude was stated no better than kKnownAttitude_rad: other poses may lie within it
   StartCheck check;         // of that start, in mode starting
   bool interrupts = false;  // a start: the track that it interrupted is kept by whoever keeps this state
@@ -75,11 +75,11 @@ void change_mode(ModeEvent event, TrackState& state);
 
 // Takes up a track at t_us: kStarting. Where it interrupts a track, and no scan confirms it, the event is kFallBack. Refused as start_from
 // says, and kNotFromHere where the mode takes no start: `state` is then as it was.
-StartRefusal start_track(const Mission& mission, InitialPoseSource way, const StartOffer& offer, TimeUs t_us, TrackState& state);
+StartRefusal start_track(const Mission& mission, InitialPoseSource source, const StartOffer& offer, TimeUs t_us, TrackState& state);
 
 // One scan: predict, register, join to the filter, next mode. In a mode that confirms, a valid registration has to agree with the
 // prediction (start.gate, kFarFromStart), and starts the filter anew, since the prediction may be far off; so does one that the filter
-// cannot take. Where start.check is set, a start of another way than search is then checked (end_check): the scans that it takes are
+// cannot take. Where start.check is set, a start of another source than search is then checked (end_check): the scans that it takes are
 // kUnchecked, but join the filter. One that the prediction of a filter with 5 scans excludes (tracking.innovation_max) is kImplausible and
 // joins nothing; it ends a check, and the start has to be confirmed anew. A prediction less certain than the registration's gate is a rough
 // start. Bounds: as Estimator::estimate.

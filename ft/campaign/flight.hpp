@@ -8,8 +8,6 @@
 
 namespace lasso::campaign {
 
-constexpr std::uint32_t kPipelineFrames = 2;  // scan k is reported at boundary k + 2
-
 // Loads the image and passes boundary 0 at mdat::kEpochUs. Throws mdat::RunError where the component refuses.
 void begin(Component& component, Bytes image);
 void start_tracking(Component& component, const Pose& T_sensor_target);

@@ -2,7 +2,7 @@
 // repetition; writes a row for each into FILE (CSV). What is flipped, where and when depends on SEED and the trial's number alone: FLIPS =
 // 1 and FIRST repeat one of them.
 //
-// The flight is flown once, and forks a child at each flip, which flips the bit, and flies on until the component tells of it, or the
+// The flight is flown once, and forks a child at each flip, which flips the bit, and flies on until the component reports it, or the
 // longest time has passed in which it has to. Areas: both images, the views made of the active one, the changed parameters in their two
 // copies, the mode in its three, and code.
 #include <fcntl.h>
@@ -54,7 +54,7 @@ struct Flip {
 
 // What a child sends home.
 struct Finding {
-  std::uint32_t frames = 0;  // from the flip until it was told; 0: it was not
+  std::uint32_t frames = 0;  // from the flip until it was reported; 0: it was not
   std::uint32_t wrong = 0;   // valid poses that are wrong, until then
   std::uint32_t poses = 0, invalid = 0;
 };
@@ -156,7 +156,7 @@ class Subject {
 
   // By command, so that the copies are what a command makes of them.
   void change_parameter() {
-    ParameterCommand command{row_of("tracking.coast_frames"), kChanged};
+    ParameterCommand command{parameter_rows()[row_of("tracking.coast_frames")].id, kChanged};
     const PacketRow& row = command_rows::row_of(CommandKind::kSetParameter);
     std::uint8_t packet[kMaxCommandBytes];
     ByteWriter writer{Bytes(packet)};
@@ -165,8 +165,8 @@ class Subject {
     if (!component_->receive_packet({packet, finish_packet(writer, Bytes(packet))}, component_->next_slot_us()))
       throw mdat::RunError("no command");
   }
-  static std::uint16_t row_of(const char* key) {
-    std::uint16_t row = 0;
+  static std::size_t row_of(const char* key) {
+    std::size_t row = 0;
     while (std::strcmp(parameter_rows()[row].key, key) != 0) ++row;
     return row;
   }
@@ -280,7 +280,7 @@ Result fly(Subject& subject, const Flip* flip, std::uint32_t slot) {
   return result;
 }
 
-// A component that stops is started again by its board, which tells.
+// A component that stops is started again by its board, which reports it.
 const char* outcome_of(const Result& result) {
   if (result.end != End::kDone) return result.end == End::kHang ? "hang" : result.end == End::kInvariant ? "invariant" : "crash";
   if (result.finding.frames > 0) return result.finding.wrong > 0 ? "told_wrong" : "detected";
@@ -307,7 +307,7 @@ std::string run(const char* mission_file, std::uint32_t flips, std::uint64_t see
   const Result golden = fly(subject, nullptr, 0);
   const bool sound = golden.end == End::kDone && golden.finding.frames == 0 && golden.finding.poses == kLongest;
   if (!sound || golden.finding.wrong + golden.finding.invalid > 0)
-    throw mdat::RunError("the flight without a flip has poses that are missing, invalid or wrong, or tells of a fault");
+    throw mdat::RunError("the flight without a flip has poses that are missing, invalid or wrong, or reports a fault");
   subject.locate_copies();
   std::size_t sizes[kAreas];
   for (std::uint32_t i = 0; i < kAreas; ++i) sizes[i] = subject.area(static_cast<Area>(i)).size();

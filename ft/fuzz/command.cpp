@@ -1,5 +1,5 @@
 // Bytes that claim to be commands, one packet and a stream of them. What the decoder accepts must encode to the same bytes again; what the
-// finder finds in a stream, in pieces, must be what looking at every place of it finds. The first byte: bit 0 leaves length and check sum
+// finder finds in a stream, in pieces, must be what looking at every place of it finds. The first byte: bit 0 leaves length and checksum
 // as they are, bit 1 puts the packet between two halves of itself; the others say how large the pieces are.
 #include <algorithm>
 #include <vector>

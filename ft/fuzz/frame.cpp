@@ -1,6 +1,6 @@
 // Bytes of the laser camera's line, given to the frame decoder in pieces, and what its frames say to the decoders of messages. Every byte
 // is accounted for, a frame is what its own encoding gives, and a message that is accepted says the payload again. The first byte: bit 0
-// leaves the bytes as they are, else they are the types, lengths and payloads of frames, whose sync, sequence and check sum are made
+// leaves the bytes as they are, else they are the types, lengths and payloads of frames, whose sync, sequence and checksum are made
 // right; the others say how large the pieces are.
 #include <algorithm>
 #include <cstring>

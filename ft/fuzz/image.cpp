@@ -1,5 +1,5 @@
 // Bytes that claim to be a flight image. The loader refuses them and changes nothing, or makes a mission on which an estimate or a search
-// reads nothing out of bounds and ends. The first byte: bit 0 leaves lengths and check sums as they are (else they are repaired, since no
+// reads nothing out of bounds and ends. The first byte: bit 0 leaves lengths and checksums as they are (else they are repaired, since no
 // mutation gets past them), bit 1 starts the estimate wide, bit 2 searches instead. Mutations of bytes seldom leave an image that loads, so
 // most of them are of words in tables, of the whole's or of a part's.
 #include "cfg/capacities.hpp"

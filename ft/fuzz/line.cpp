@@ -1,6 +1,6 @@
 // Bytes that claim to be the laser camera's, while the driver scans. Whatever comes, it hands over no more than it is asked for, each ray
 // of the plan once at most, in order of time, hits that are points, and it ends. The first byte: bit 0 leaves the bytes as they are, else
-// they are the types, lengths and payloads of frames, whose sync, sequence and check sum are made right; the others say how much a call may
+// they are the types, lengths and payloads of frames, whose sync, sequence and checksum are made right; the others say how much a call may
 // take.
 #include <algorithm>
 #include <cmath>

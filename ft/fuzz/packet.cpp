@@ -1,5 +1,5 @@
 // Bytes that claim to be telemetry. What the decoder takes for a pose must encode to the same bytes again; what the queue takes it must
-// give back. The first byte: bit 0 leaves length and check sum as they are.
+// give back. The first byte: bit 0 leaves length and checksum as they are.
 #include "cfg/capacities.hpp"
 #include "fsw/link/pose_telemetry.hpp"
 #include "fsw/link/telemetry_queue.hpp"

@@ -6,7 +6,7 @@
 
 namespace lasso::fuzz {
 
-// Writes the packet's own length and check sum into it. A packet that is too short for both stays as it is.
+// Writes the packet's own length and checksum into it. A packet that is too short for both stays as it is.
 inline void repair(Bytes packet) {
   if (packet.size() < kPrimaryHeaderBytes + kPacketTrailerBytes) return;
   const std::size_t length = packet.size() - kPrimaryHeaderBytes - 1;

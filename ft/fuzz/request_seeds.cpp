@@ -16,7 +16,7 @@ constexpr const char* kPosts[][2] = {
     {"/api/live/command", R"({"name":"enable_laser","arm":true})"},
     {"/api/live/command", R"({"name":"set_structure_period","values":{"structure":"health","period_frames":"5"}})"},
     {"/api/live/command",
-     R"({"name":"offer_start","values":{"way":"pose","t_us":"-1","p_sensor_target_m":"0,0.5,4e0","covariance":"1,0"}})"},
+     R"({"name":"offer_start","values":{"start_source":"pose","t_us":"-1","p_sensor_target_m":"0,0.5,4e0","covariance":"1,0"}})"},
     {"/api/live/pace", R"({"pace":2})"},
     {"/api/live/stop", "{}"},
     {"/api/mission/look?id=m.toml", R"({"text":"[mission]\nid = 1\nversion = 1\nname = \"m\"\n[target]\nmesh = \"target.obj\"\n"})"},

@@ -1,5 +1,5 @@
 // fuzz_seeds FOLDER MISSIONS: the inputs that the fuzzers start from, FOLDER/HARNESS/NAME: good ones of each kind, since from nothing a
-// fuzzer finds no way past magic numbers and check sums. MISSIONS is the folder of the shipped missions.
+// fuzzer finds no way past magic numbers and checksums. MISSIONS is the folder of the shipped missions.
 #include <cstdio>
 #include <exception>
 #include <filesystem>

@@ -35,7 +35,7 @@ std::string item_at(std::size_t byte) {
   for (std::size_t i = 0; i < pose.items.size(); ++i) {
     if (byte < item_offset(pose, i + 1)) return pose.items[i].name;
   }
-  return "check sum";
+  return "checksum";
 }
 
 int compare(ConstBytes a, ConstBytes b) {

@@ -27,7 +27,6 @@ namespace {
 
 using mdat::InputError;
 using mdat::RunError;
-constexpr std::uint32_t kPipelineFrames = 2;  // scan k is reported at boundary k + 2
 
 struct Flight {
   std::filesystem::path out;

@@ -1,6 +1,7 @@
 // Keys as an operator and a mission's owner have them: images are signed, and keys of commands replaced over the link.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 
 #include "ft/mdat/live_run.hpp"
@@ -75,6 +76,37 @@ TEST_F(KeysTest, AKeyIsReplacedOverTheLinkAndHoldsInTheNextRun) {
   EXPECT_EQ(command("ping", "key1").exit_code, 0);
   EXPECT_NE(command("ping", "master").err.find("not_authentic"), std::string::npos);
   EXPECT_EQ(second.interrupt().exit_code, 0);
+}
+
+TEST_F(KeysTest, AKeyThatCannotBeStoredIsNotConfirmed) {
+  VERIFIES("LASSO-LNK-052~1");
+  ASSERT_EQ(work_.mdat("key master --number 1 --out key1").exit_code, 0);
+  Program run(work_, kKeyedRun + "--out run --key master --store store --link " + url_);
+  EXPECT_EQ(command("change_key number=1 --arm", "master").exit_code, 0);
+  std::filesystem::create_directories(work_ / "store/authentication.partial/full");
+  const Answer confirmed = command("confirm_key number=1", "key1");
+  EXPECT_EQ(confirmed.exit_code, 1);
+  EXPECT_NE(confirmed.err.find("not_kept (the board cannot store that this key is in use"), std::string::npos) << confirmed.err;
+  EXPECT_EQ(command("ping", "master").exit_code, 0) << "both count";
+  std::filesystem::remove_all(work_ / "store/authentication.partial");
+  EXPECT_EQ(command("confirm_key number=1", "key1").exit_code, 0);
+  EXPECT_EQ(run.interrupt().exit_code, 0);
+  EXPECT_EQ(work_.read("store/authentication").substr(0, 13), "key 1\nnumber ");
+}
+
+TEST_F(KeysTest, AKeyFarBeyondTheOneInUseIsRefusedBeforeItIsSent) {
+  VERIFIES("LASSO-LNK-053~1");
+  const std::string change = "command change_key --arm --out packet --key ";
+  const Answer far = work_.mdat(change + "master number=65537");
+  EXPECT_EQ(far.exit_code, 2);
+  EXPECT_NE(far.err.find("number=65537: behind key 0, which signs the command, come 1 to 65536"), std::string::npos) << far.err;
+  EXPECT_EQ(work_.mdat(change + "master number=65536").exit_code, 0);
+  ASSERT_EQ(work_.mdat("key master --number 4294967294 --out late").exit_code, 0);
+  ASSERT_EQ(work_.mdat("key master --number 4294967295 --out last").exit_code, 0);
+  EXPECT_EQ(work_.mdat(change + "late number=4294967295").exit_code, 0);
+  const Answer last = work_.mdat(change + "last number=4294967295");
+  EXPECT_EQ(last.exit_code, 2);
+  EXPECT_NE(last.err.find("behind key 4294967295 there is none: start with a new master key"), std::string::npos) << last.err;
 }
 
 TEST_F(KeysTest, AComponentOfAnotherApplicationProcessIsFlownCommandedAndRead) {

@@ -91,7 +91,7 @@ std::map<std::string, int> compare_with_tshark(const WorkFolder& work, const std
     std::vector<std::string> found = split(lines[i]);
     EXPECT_EQ(found.size(), columns);
     found.resize(columns);
-    EXPECT_EQ(found[0], "1") << "the check sum, by the dissector's own arithmetic";
+    EXPECT_EQ(found[0], "1") << "the checksum, by the dissector's own arithmetic";
     EXPECT_EQ(found[1], rows.at(kind).at("number").is_null() ? "" : rows.at(kind).at("number").dump());
     for (std::size_t k = 0; k < header.size(); ++k) EXPECT_EQ(found[2 + k], packet.at("header").at(header[k]).dump()) << header[k];
     const Json& items = rows.at(kind).at("items");

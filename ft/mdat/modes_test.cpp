@@ -30,7 +30,7 @@ TEST(Modes, AMissionsOwnPoseThatNoSensorReachesIsARefusedStart) {
   for (const auto& packet : packets) {
     if (packet.at("packet") != "start_refused") continue;
     ++refused;
-    EXPECT_EQ(packet.at("items").at("way"), "apriori");
+    EXPECT_EQ(packet.at("items").at("start_source"), "apriori");
     EXPECT_EQ(packet.at("items").at("refusal"), "out_of_reach");
   }
   EXPECT_EQ(refused, 1);

@@ -59,7 +59,7 @@ TEST(Operate, AnOperatorCommandsARunningComponent) {
     EXPECT_EQ(work.mdat("command ping --wait 30 --to " + url).exit_code, 0);
     const Answer standby = work.mdat("command set_mode mode=standby --wait 30 --to " + url);
     EXPECT_EQ(standby.exit_code, 0) << standby.err;
-    for (int i = 0; i < 3; ++i) work.mdat("command ping --wait 30 --to " + url);  // a frame each: the last events are told
+    for (int i = 0; i < 3; ++i) work.mdat("command ping --wait 30 --to " + url);  // a frame each: the last events are reported
     const Answer over = run.interrupt();
     EXPECT_EQ(over.exit_code, 0) << over.err;
     const Json packets = Json::parse(work.mdat("decode run/telemetry.ccsds --format json").out).at("packets");

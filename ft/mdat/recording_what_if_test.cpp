@@ -42,7 +42,7 @@ TEST_F(WhatIf, BothAreToldSideBySide) {
   ASSERT_EQ(changed.exit_code, 0) << changed.err;
   EXPECT_EQ(row(changed.out, "poses told"), (std::vector<std::string>{"12", "12"}));
   EXPECT_EQ(row(changed.out, "wrong"), (std::vector<std::string>{"0", "0"}));
-  // What the run itself told of its poses, all of which are valid.
+  // What the run itself reported of its poses, all of which are valid.
   const std::vector<std::string> rms = row(changed.out, "rms, mm");
   EXPECT_NEAR(std::stod(rms[0]), results.at("noisy").at("rms_mm").get<double>(), 6e-4);
   EXPECT_NE(rms[0], rms[1]);

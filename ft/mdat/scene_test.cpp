@@ -124,7 +124,7 @@ TEST(SceneRun, ASensorBesideTheSensorFrameTracks) {
             18);
 }
 
-// The ground's table of a handle on the target in a port beside the camera, and what the component tells of the same.
+// The ground's table of a handle on the target in a port beside the camera, and what the component reports of the same.
 void expect_equal(const Columns& table, const Columns& told, std::size_t row) {
   constexpr double kDegPerRad = 180 / 3.14159265358979323846;
   const std::string axes[] = {"x", "y", "z"}, variances[] = {"covariance_15", "covariance_18", "covariance_20"};

@@ -202,7 +202,7 @@ TEST(MissionSet, WritesWhatIsValidAndNothingElse) {
 }
 
 TEST(MissionDiff, OfMissionsAndImagesIsInUnits) {
-  VERIFIES("LASSO-GND-148~1");
+  VERIFIES("LASSO-GND-148~2");
   const WorkFolder work;
   work.write("missions/other.toml", work.read("missions/test.toml"));
   const Answer set = work.mdat(
@@ -216,6 +216,46 @@ TEST(MissionDiff, OfMissionsAndImagesIsInUnits) {
   EXPECT_EQ(lines_of(work.mdat("mission diff missions/test.toml a.3dli").out).front(), "no value differs");
   EXPECT_NE(work.mdat("mission diff a.3dli missions/other.toml").out.find("2e-05 m"), std::string::npos);
   EXPECT_EQ(work.mdat("mission diff a.3dli missions/none.toml").exit_code, 2);
+}
+
+// Of each table of a mission a value is changed: it is told, and nothing else.
+TEST(MissionDiff, TellsAValueOfEachTable) {
+  VERIFIES("LASSO-GND-148~2");
+  const WorkFolder work;
+  struct Changed {
+    const char *key, *value, *told;
+  };
+  const Changed changes[] = {{"mission.id", "7", "7"},
+                             {"mission.version", "99", "99"},
+                             {"mission.name", "another", "\"another\""},
+                             {"target.crease_angle_deg", "35", "35 deg"},
+                             {"sensor.dropout_probability", "0.25", "0.25"},
+                             {"scan.points", "512", "512"},
+                             {"filter.period_s", "0.4", "0.4 s"},
+                             {"start.gate", "30", "30"},
+                             {"tracking.initial.z_m", "4.5", "4.5 m"},
+                             {"scenario.spin.frames", "9", "9"},
+                             {"scenario.spin.override.tracking.coast_frames", "7", "7"},
+                             {"material.hull.preset", "mli", "\"mli\""},
+                             {"campaign.montecarlo.cases", "3", "3"},
+                             {"campaign.montecarlo.truth.prior_turn_deg", "2", "2"},
+                             {"campaign.montecarlo.criteria.no_wrong_pose.share_min", "0.9", "0.9"}};
+  work.write_mission({{"[scenario.paper]", "[material.hull]\nparts = [\"body\"]\npreset = \"white-paint\"\n\n[scenario.paper]"}});
+  for (const Changed& changed : changes) {
+    work.write("missions/other.toml", work.read("missions/test.toml"));
+    const Answer set = work.mdat("mission set missions/other.toml " + std::string(changed.key) + "=" + changed.value);
+    ASSERT_EQ(set.exit_code, 0) << set.err;
+    const std::vector<std::string> lines = lines_of(work.mdat("mission diff missions/test.toml missions/other.toml").out);
+    ASSERT_EQ(lines.size(), 2U) << changed.key << ": " << lines.back();
+    EXPECT_EQ(lines[1].rfind(std::string(changed.key) + " ", 0), 0U) << lines[1];
+    EXPECT_EQ(lines[1].substr(lines[1].find_last_not_of(' ') + 1 - std::string(changed.told).size()), changed.told) << lines[1];
+  }
+  ASSERT_EQ(work.mdat("mission compile missions/test.toml -o a.3dli").exit_code, 0);
+  ASSERT_EQ(work.mdat("mission compile missions/test.toml --set mission.version=2 --set mission.id=8 -o b.3dli").exit_code, 0);
+  const std::vector<std::string> images = lines_of(work.mdat("mission diff a.3dli b.3dli").out);
+  ASSERT_EQ(images.size(), 4U);
+  EXPECT_EQ(images[1].rfind("mission.id ", 0), 0U) << images[1];
+  EXPECT_EQ(images[2].rfind("mission.version ", 0), 0U) << images[2];
 }
 
 TEST(MissionExplain, SaysWhereAValueCameFrom) {

@@ -164,5 +164,21 @@ TEST_F(UploadTest, AComponentWithAKeyTakesASignedImageAlone) {
   EXPECT_NE(active.out.find("image " + name_of("second.3dli") + " is active and confirmed"), std::string::npos) << active.out;
 }
 
+// Whether the component wants the signature, its link does not tell.
+TEST_F(UploadTest, WithoutAKeyASignatureIsSentAndLeftBehindWhereTheUserSaysSo) {
+  VERIFIES("LASSO-LNK-055~1");
+  work_.write("key", std::string(64, 'a'));
+  ASSERT_EQ(work_.mdat("mission sign second.3dli -o signed.3dli --key key").exit_code, 0);
+  const auto run = start("first.3dli", "the mission");
+  const Answer as_it_is = upload("signed.3dli");
+  EXPECT_EQ(as_it_is.exit_code, 1);
+  EXPECT_NE(as_it_is.err.find("signed.3dli: is signed, and sent with its signature"), std::string::npos) << as_it_is.err;
+  EXPECT_NE(as_it_is.err.find("the component refuses the image: bad_length"), std::string::npos) << as_it_is.err;
+  const Answer unsigned_one = upload("signed.3dli --unsigned");
+  EXPECT_EQ(unsigned_one.exit_code, 0) << unsigned_one.err;
+  EXPECT_NE(unsigned_one.out.find("image " + name_of("second.3dli") + " is ready"), std::string::npos) << unsigned_one.out;
+  EXPECT_EQ(upload("signed.3dli --unsigned --key key").exit_code, 2);
+}
+
 }  // namespace
 }  // namespace lasso::ft

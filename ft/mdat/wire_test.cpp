@@ -53,7 +53,7 @@ struct Head {
 class Line : public ::testing::TestWithParam<Head> {};
 
 TEST_P(Line, GivesThePosesOfTheSimulatedSensor) {
-  VERIFIES("LASSO-LCS-010~4 LASSO-LCS-016~1");
+  VERIFIES("LASSO-LCS-010~4 LASSO-LCS-016~2");
   const WorkFolder folder;
   folder.write_mission({{"ranges_m = [2.0, 3.0, 4.0, 5.0, 6.0, 7.0]", "ranges_m = [3.0, 7.0]"},
                         {"sigma0_m = 1e-5\n", "sigma0_m = 1e-5\nkind = \"" + std::string(GetParam().kind) + "\"\n"}});
@@ -139,7 +139,7 @@ TEST(RecordedRun, SaysWhatIsWrongWithARecording) {
 }
 
 TEST(LineRefusals, NameWhatTheMissionLacks) {
-  VERIFIES("LASSO-LCS-016~1");
+  VERIFIES("LASSO-MDT-007~1");
   const WorkFolder folder;
   const std::pair<const char*, const char*> cases[] = {
       {"--sensor lidar-wire", "--sensor lidar-wire: none of the mission's sensors is a LIDAR"},
@@ -154,7 +154,7 @@ TEST(LineRefusals, NameWhatTheMissionLacks) {
 }
 
 TEST(LineRefusals, OneLineHasOneHead) {
-  VERIFIES("LASSO-LCS-016~1");
+  VERIFIES("LASSO-MDT-007~1");
   const WorkFolder folder;
   const auto refusal = [&](const char* second_kind, const char* sensor) {
     folder.write_mission({{"[scan]\n", "[further_sensor.second]\nkind = \"" + std::string(second_kind) +

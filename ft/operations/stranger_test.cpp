@@ -166,7 +166,7 @@ class Stranger {
     if (below(2) == 0) repair(packet);
     return packet;
   }
-  // One or two bits that the code has to cover, and a check sum that is right.
+  // One or two bits that the code has to cover, and a checksum that is right.
   Packet changed(Packet packet) {
     for (std::size_t i = below(2) + 1; i > 0; --i) {
       std::uint8_t& place = packet[below(packet.size() - kCrc)];
@@ -281,7 +281,7 @@ Packet start(std::uint16_t count) {
     for (int column = row; column < 6; ++column) triangle.push_back(row == column ? 0.0025 : 0);
   }
   return mdat::encode_command(mdat::command_row("offer_start"),
-                              {{"way", "uplink"},
+                              {{"start_source", "uplink"},
                                {"t_us", std::to_string(LinkedFlight::first_us())},
                                {"q_sensor_target", list({pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w()})},
                                {"p_sensor_target_m", list({pose.p.x(), pose.p.y(), pose.p.z()})},

@@ -61,7 +61,7 @@ class Ground {
   }
   void send_start() {
     const Pose pose = LinkedFlight::first_T_sensor_target();
-    send("offer_start", {{"way", "uplink"},
+    send("offer_start", {{"start_source", "uplink"},
                          {"t_us", std::to_string(LinkedFlight::first_us())},
                          {"q_sensor_target", list({pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w()})},
                          {"p_sensor_target_m", list({pose.p.x(), pose.p.y(), pose.p.z()})},

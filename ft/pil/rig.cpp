@@ -15,6 +15,7 @@
 #include <map>
 #include <string>
 
+#include "fsw/exec/component.hpp"
 #include "ft/pil/boards.hpp"
 #include "ft/pil/store_story.hpp"
 #include "mdat/common/count.hpp"
@@ -30,7 +31,6 @@
 namespace lasso::pil {
 namespace {
 
-constexpr std::uint32_t kPipelineFrames = 2;  // scan k is reported at boundary k + 2
 constexpr double kStoryPoints = 256, kOtherPoints = 250;
 constexpr std::size_t kMissionIdAt = 19;  // the low byte of the header's mission id
 constexpr std::uint8_t kOtherMission = 99;

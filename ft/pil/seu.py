@@ -40,7 +40,7 @@ OUTCOMES = {
     'stopped': 'told, and no more poses: safe, or lost',
     'reset': 'the board restarted',
     'hang': 'no more word of the board for as long as 100 frames without a flip take, 20 s of the host at least: it hangs, or damaged code has made it restart nine times in a row',
-    'told_wrong': 'a wrong pose as valid, and the flip told within 10 s, or a reset',
+    'told_wrong': 'a wrong pose as valid, and the flip reported within 10 s, or a reset',
     'silent_wrong': 'a wrong pose as valid, and not a word within 10 s of the flip: silent as in make scrub',
 }
 # Of all outcomes, after their sum: flights with a wrong pose as valid, which are silent as in make flips, and those where it came before or with the word of the flip.

@@ -19,8 +19,8 @@ constexpr int kPatience_s = 20;
 constexpr double kPatienceFrames = 100;
 constexpr std::uint32_t kSameFrames = 3;               // in a row, memory too: the flip is gone
 constexpr std::uint32_t kValidFrames = 3;              // in a row: it tracks again
-constexpr std::uint32_t kRecoverFrames = 10;           // after it was told
-constexpr std::uint32_t kDamagedFrames = 20;           // after it was told of code, which stays damaged
+constexpr std::uint32_t kRecoverFrames = 10;           // after it was reported
+constexpr std::uint32_t kDamagedFrames = 20;           // after it was reported of code, which stays damaged
 constexpr std::uint32_t kRestartFrames = 10;           // after a restart
 constexpr std::chrono::seconds kFlightPatience(1200);  // of the host, for a whole flight
 constexpr std::uint32_t kRepeats = 2;                  // of the flight without a flip
@@ -114,7 +114,7 @@ void SeuFlight::record() {
     moments_[k + 1].said = *said;
     const Heard heard = hear(said->telemetry, *truth_);
     if (k >= kFirst && (heard.told || heard.invalid + heard.wrong > 0 || (ends_frame(k + 1) && heard.tracking == 0)))
-      throw mdat::RunError("the flight without a flip tells of a fault, or has poses that are missing, invalid or wrong");
+      throw mdat::RunError("the flight without a flip reports a fault, or has poses that are missing, invalid or wrong");
   }
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begun;
   patience_s_ = std::max(kPatience_s, static_cast<int>(kPatienceFrames / kGoldenFrames * taken.count()));

@@ -10,7 +10,7 @@
 
 namespace lasso::pil {
 
-constexpr std::uint32_t kScrubFrames = 50;  // the scrub's period by its requirement, 10 s: in which a flip has to be told
+constexpr std::uint32_t kScrubFrames = 50;  // the scrub's period by its requirement, 10 s: in which a flip has to be reported
 constexpr std::uint32_t kGoldenFrames = kFirstFrame + kFlipFrames + kScrubFrames + 1;
 
 // What became of a flip (docs/pil.md).
@@ -20,7 +20,7 @@ struct Trial {
   std::uint32_t bit = 0;          // of the byte, of the register
   std::uint32_t instruction = 0;  // at which it was flipped; 0: between two slots
   std::string outcome;
-  std::uint32_t told_after = 0;  // frames; 0: nothing was told
+  std::uint32_t told_after = 0;  // frames; 0: nothing was reported
   std::uint32_t wrong = 0, invalid = 0, frames = 0;
   std::uint32_t first_wrong = 0;  // frame after the flip, from 1, of the first valid pose that was wrong
 };

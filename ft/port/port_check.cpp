@@ -40,7 +40,7 @@ int failures = 0;
 
 void check_arithmetic() {
   const std::uint32_t failed = failed_self_tests();
-  if (failed == 0) return say(true, "arithmetic", "rounds to nearest, keeps subnormals; sines, check sums and codec have their known bits");
+  if (failed == 0) return say(true, "arithmetic", "rounds to nearest, keeps subnormals; sines, checksums and codec have their known bits");
   say(false, "arithmetic", "self-tests 0x%02lX failed: look up their bits in fsw/exec/self_test.hpp, then the compiler's flags",
       0UL + failed);
 }

@@ -98,6 +98,12 @@ void write(const CommandArguments& options, const PacketRow& row, const std::map
   write_file(options.out, std::string(bytes.begin(), bytes.end()));
 }
 
+// A number that goes far ahead uses up those before it for good.
+void check_key_number(const CommandArguments& options, const std::map<std::string, std::string>& values) {
+  if (options.name != "change_key" || options.key.empty()) return;
+  check_next_key(load_key(options.key).number, static_cast<std::uint32_t>(std::stoul(values.at("number"))));
+}
+
 void command(const CommandArguments& options) {
   if (options.list) return (void)std::fputs(command_list().c_str(), stdout);
   if (options.name.empty()) throw InputError("command: which one? mdat command --list shows all");
@@ -110,6 +116,7 @@ void command(const CommandArguments& options) {
   std::map<std::string, std::string> values;
   for (const std::string& argument : options.arguments) values.insert(split_argument(argument));
   static_cast<void>(encode_command(row, values, 0, options.apid));  // what is wrong is said before anything is sent
+  check_key_number(options, values);
   options.to.empty() ? write(options, row, values) : send(options, row, values);
 }
 

@@ -141,7 +141,7 @@ void add_decode_command(CLI::App& app) {
   const CLI::Option* const apid = add_apid(*command, options->apid);
   command->add_flag("--commands", options->commands, "the stream is one of commands, not of telemetry");
   command->add_flag("--headers", options->headers,
-                    "list headers, sequence gaps and check sums of any stream of space packets; with --apid those of one alone");
+                    "list headers, sequence gaps and checksums of any stream of space packets; with --apid those of one alone");
   command->add_flag("--follow", options->follow, "go on with what is added to the file, until Ctrl-C");
   command->callback([options, apid] {
     options->of_one = apid->count() > 0;

@@ -44,7 +44,10 @@ void add_key_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("key", "derive a new key for commands from a mission's master key (docs/decisions/keys-by-link.md)");
   command->add_option("MASTER", options->master, "file of the master key: 64 hexadecimal digits (openssl rand -hex 32)")->required();
-  command->add_option("--number", options->number, "of the new key; larger than that of the key in use, which is 0 at first")
+  command
+      ->add_option(
+          "--number", options->number,
+          "of the new key; larger than that of the key in use, which is 0 at first, by a small step: what is stepped over is used up")
       ->required()
       ->check(CLI::Range(1U, UINT32_MAX));
   command->add_option("-o,--out", options->out, "file to write, for its owner's eyes alone")->required();

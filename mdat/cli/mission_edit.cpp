@@ -189,15 +189,29 @@ std::vector<EffectiveValue> parameters_only(const std::vector<EffectiveValue>& v
   return result;
 }
 
-// Of a mission also what its scenarios override, and the digest of its target.
+void append(std::vector<EffectiveValue>& values, const std::vector<EffectiveValue>& more) {
+  values.insert(values.end(), more.begin(), more.end());
+}
+
+// An image's number and version, and its flight parameters.
+std::vector<EffectiveValue> values_of_image(const std::string& file) {
+  const LoadedImage image(file, read_bytes(file));
+  std::vector<EffectiveValue> values = identity_values(image.mission().id, image.mission().version);
+  append(values, values_of(image.mission().parameters));
+  return values;
+}
+
+// Of a mission also its name, what its scenarios override, its campaigns as they are written, and the digest of its target.
 std::vector<EffectiveValue> values_of_file(const std::string& file, const std::string& scenario) {
-  if (is_image_file(file)) return values_of(LoadedImage(file, read_bytes(file)).mission().parameters);
+  if (is_image_file(file)) return values_of_image(file);
   const MissionSource source = load_mission(file);
-  std::vector<EffectiveValue> values = effective_values(source, scenario);
+  std::vector<EffectiveValue> values = identity_values(source.id, source.version);
+  values.push_back({"mission.name", '"' + source.name + '"', "", "", ""});
+  append(values, effective_values(source, scenario));
   values.push_back({"target.sha256", source.target.sha256.substr(0, 12), "", "", ""});
   if (!scenario.empty()) return values;
-  const std::vector<EffectiveValue> overrides = override_values(source);
-  values.insert(values.end(), overrides.begin(), overrides.end());
+  append(values, override_values(source));
+  for (const WrittenValueText& law : written_below(file_content(file), "campaign", file)) values.push_back({law.key, law.toml, "", "", ""});
   return values;
 }
 
@@ -211,7 +225,7 @@ std::string changes_text(const DiffOptions& options, const std::vector<ValueChan
   return aligned_text(lines);
 }
 
-// An image has flight parameters alone.
+// Of an image not all that it has is compared.
 void diff(const DiffOptions& options) {
   std::vector<EffectiveValue> first = values_of_file(options.first, options.scenario);
   std::vector<EffectiveValue> second = values_of_file(options.second, options.scenario);
@@ -219,7 +233,9 @@ void diff(const DiffOptions& options) {
   if (images[1]) first = parameters_only(first, second);
   if (images[0]) second = parameters_only(second, first);
   print_lines(changes_text(options, changes_between(first, second)));
-  if (images[0] || images[1]) print_lines("compared: flight parameters; a flight image has no other values\n");
+  if (images[0] || images[1])
+    print_lines(
+        "compared: mission.id, mission.version and flight parameters; not an image's model, parts, calibrations and named frames\n");
 }
 
 void add_diff_command(CLI::App& mission) {

@@ -110,7 +110,7 @@ class Monitor {
     const std::string refusal = connection.call_refusal();
     if (refusal == refusal_) return;
     refusal_ = refusal;
-    if (!refusal.empty()) terminal_.line("  the component refuses to tell its telemetry: " + refusal);
+    if (!refusal.empty()) terminal_.line("  the component refuses to send its telemetry: " + refusal);
   }
   static std::string others(const Connection& connection) {
     return connection.other_bytes() == 0 ? "" : ", " + amount(connection.other_bytes(), "byte") + " of no packet of this APID";
@@ -189,7 +189,7 @@ void monitor(const MonitorArguments& options) {
 
 void add_monitor_command(CLI::App& app) {
   const auto options = std::make_shared<MonitorArguments>();
-  CLI::App* command = app.add_subcommand("monitor", "watch a component's telemetry as it comes: checked, recorded, told to viewers");
+  CLI::App* command = app.add_subcommand("monitor", "watch a component's telemetry as it comes: checked, recorded, sent to viewers");
   command
       ->add_option("LINK", options->url, "udp://HOST:PORT, tcp://HOST:PORT, serial:DEVICE or unix:PATH of the component (docs/monitor.md)")
       ->required();

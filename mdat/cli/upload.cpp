@@ -14,12 +14,24 @@ namespace {
 struct UploadArguments {
   std::string image, to, key;
   UploadOptions upload;
-  bool unchecked = false, cached = true;
+  bool unchecked = false, cached = true, plain = false;
 };
+
+// A component with no key takes a signature for bytes too many.
+void settle_signature(const UploadArguments& options, std::vector<std::uint8_t>& image) {
+  if (!options.key.empty() || !has_signature(image)) return;
+  if (options.plain) {
+    image = without_signature(image);
+    return;
+  }
+  std::fprintf(stderr, "%s: is signed, and sent with its signature: a component without a key takes it with --unsigned alone\n",
+               options.image.c_str());
+}
 
 // Read and checked before anybody is called: what the component would refuse at the end of it is not sent.
 std::vector<std::uint8_t> image_of_file(const UploadArguments& options, const std::optional<Key>& key) {
   std::vector<std::uint8_t> bytes = read_bytes(options.image);
+  settle_signature(options, bytes);
   if (options.unchecked) return image_to_send(bytes, key);
   static_cast<void>(LoadedImage(options.image, bytes));
   check_signature(options.image, bytes, key);
@@ -59,12 +71,14 @@ void add_upload_command(CLI::App& app) {
   subcommand
       ->add_option("--to", options->to, "udp://HOST:PORT or tcp://HOST:PORT; what was loaded of the same image before is not sent again")
       ->required();
-  subcommand->add_option(
+  CLI::Option* key = subcommand->add_option(
       "--key", options->key,
       "file with the key that the component asks commands to be signed with (64 hexadecimal digits); the master key signs an image that "
       "is not signed, too");
   add_apid(*subcommand, options->upload.apid);
   subcommand->add_flag("--activate", options->upload.activate, "arm and activate it, and wait until its first scans confirm it");
+  subcommand->add_flag("--unsigned", options->plain, "leave the signature of a flight image behind, for a component without a key")
+      ->excludes(key);
   subcommand->add_flag("--unchecked", options->unchecked, "send a flight image even if it is wrong: the component refuses it");
   add_no_cache(*subcommand, options->cached);
   subcommand->add_option("--wait", options->upload.answer_s, "seconds to wait for an answer")

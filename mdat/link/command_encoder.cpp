@@ -21,7 +21,7 @@ bool is_command(const PacketRow& row) { return row.type == PacketType::kCommand;
 
 std::string of(const PacketRow& row, const ItemRow& item) { return std::string(row.name) + ": " + item.name; }
 
-// The number of a choice, or of a parameter; -1 where the text is no such name.
+// The number of a choice, or the id of a parameter; -1 where the text is no such name.
 std::int64_t named(const ItemRow& item, const std::string& text) {
   std::int64_t value = 0;
   if (item.enumeration != nullptr) {
@@ -31,10 +31,8 @@ std::int64_t named(const ItemRow& item, const std::string& text) {
     }
   }
   if (item.name != std::string("parameter")) return -1;
-  value = 0;
   for (const ParameterRow& row : parameter_rows()) {
-    if (text == row.key) return value;
-    ++value;
+    if (text == row.key) return row.id;
   }
   return -1;
 }

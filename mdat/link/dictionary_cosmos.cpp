@@ -185,7 +185,7 @@ std::string target_text() {
   return text + "IGNORE_PARAMETER PUS_NUMBER\nIGNORE_PARAMETER PACKET_CRC\n\n" + items + "IGNORE_ITEM PACKET_CRC\n";
 }
 
-// Length: the value at bit 32 is the packet's bytes less 7. Of protocols that write, the last one is first: counts, then the check sum.
+// Length: the value at bit 32 is the packet's bytes less 7. Of protocols that write, the last one is first: counts, then the checksum.
 constexpr char kConnection[] = R"(VARIABLE target_name LASSO
 VARIABLE host host.docker.internal
 VARIABLE port 5300
@@ -264,7 +264,7 @@ A plug-in of OpenC3 COSMOS for the flight component of 3DLASSO: target LASSO, it
     gem build openc3-cosmos-lasso.gemspec        # then install the .gem in the Admin Tool of COSMOS
     mdat run MISSION --scenario spin --link tcp://0.0.0.0:5300
 
-`host` and `port` of the plug-in say where the component is. Commands are counted and get their check sum on the way out; those of telemetry are compared.
+`host` and `port` of the plug-in say where the component is. Commands are counted and get their checksum on the way out; those of telemetry are compared.
 A hazardous command is armed first: send ARM with its service, subservice and number. Commands are not signed: run without `--key`.
 )";
 

@@ -58,7 +58,8 @@ Json parameters() {
   const char* kinds[] = {"real", "integer", "boolean", "choice"};
   Json list = Json::array();
   for (const ParameterRow& row : parameter_rows()) {
-    list.push_back({{"name", row.key},
+    list.push_back({{"id", row.id},
+                    {"name", row.key},
                     {"unit", row.unit},
                     {"type", kinds[static_cast<std::size_t>(row.kind)]},
                     {"minimum", row.minimum},

@@ -1,6 +1,6 @@
 // XTCE 1.2. Telemetry: header fields and items are parameters; each packet is a container that extends the one of the headers, told by its
 // service, subservice and structure. Commands: items are arguments; each command extends the abstract one of the headers, and says their
-// values. Sequence count and check sum are for whoever sends it to fill in.
+// values. Sequence count and checksum are for whoever sends it to fill in.
 #include <cmath>
 #include <set>
 #include <vector>

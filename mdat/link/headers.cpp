@@ -8,14 +8,14 @@
 namespace lasso::mdat {
 namespace {
 
-constexpr std::size_t kLeastShown = 3;        // packets that show whether theirs have check sums
+constexpr std::size_t kLeastShown = 3;        // packets that show whether theirs have checksums
 constexpr std::size_t kRightByChance = 1000;  // one in 65536 is
 
 struct Counted {
   std::size_t packets = 0, right = 0;
 };
 
-// Where hardly any is right, there are no check sums.
+// Where hardly any is right, there are no checksums.
 void judge_checksums(std::vector<HeaderLine>& lines) {
   std::map<std::pair<PacketType, std::uint16_t>, Counted> applications;
   Counted all;

@@ -1,4 +1,4 @@
-// The headers of any stream of space packets: check sums, and how the sequence counts follow each other.
+// The headers of any stream of space packets: checksums, and how the sequence counts follow each other.
 #pragma once
 
 #include <cstddef>
@@ -38,14 +38,14 @@ struct HeaderList {
   std::size_t left_over = 0;  // bytes behind the last packet
 };
 
-// The packets of packet_places. A check sum is none where of at least three packets of a type and APID fewer than one in a thousand has a
+// The packets of packet_places. A checksum is none where of at least three packets of a type and APID fewer than one in a thousand has a
 // right one, and wrong where others have.
 HeaderList list_headers(ConstBytes stream);
 
 // Sets `step` and `missing` of all lines. A count that is not ahead is late where it fills a gap since the last restart; repeated where its
 // packet, and those behind it, have the bytes of earlier ones and the sequence then goes on, or where the next count goes on from those
 // before it (late where it is before the first one since the restart); otherwise the counter began anew. So it did where a count of 0
-// stands more than 64 ahead. The count of a packet whose check sum is wrong is believed where it is at most 64 ahead.
+// stands more than 64 ahead. The count of a packet whose checksum is wrong is believed where it is at most 64 ahead.
 void follow_sequences(ConstBytes stream, std::vector<HeaderLine>& lines);
 
 }  // namespace lasso::mdat

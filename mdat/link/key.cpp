@@ -11,6 +11,7 @@
 #include "fsw/core/byte_codec.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
+#include "mdat/common/text.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -77,6 +78,18 @@ std::string key_text(const Key& key) {
 Key derive_command_key(const Key& master, std::uint32_t number) { return number == 0 ? master : derived(master, kCommandLabel, number); }
 
 Key derive_image_key(const Key& master) { return derived(master, kImageLabel, 0); }
+
+bool is_next_key(std::uint32_t in_use, std::uint32_t number) { return number > in_use && number - in_use <= kLargestKeyStep; }
+
+void check_next_key(std::uint32_t in_use, std::uint32_t number) {
+  if (is_next_key(in_use, number)) return;
+  const std::string refused = format("change_key: number=%u: ", number);
+  if (in_use == UINT32_MAX) throw InputError(refused + format("behind key %u there is none: start with a new master key", in_use));
+  const std::uint32_t last = in_use + std::min(kLargestKeyStep, UINT32_MAX - in_use);
+  throw InputError(refused + format("behind key %u, which signs the command, come %u to %u: numbers only grow, and what is stepped over is "
+                                    "used up",
+                                    in_use, in_use + 1, last));
+}
 
 struct KeyedHash::Context {
   EVP_MD_CTX* hash = EVP_MD_CTX_new();

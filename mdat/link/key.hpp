@@ -37,6 +37,13 @@ std::string key_text(const Key& key);
 Key derive_command_key(const Key& master, std::uint32_t number);
 Key derive_image_key(const Key& master);
 
+// A component takes no key before the one in use, nor one further than this beyond it: what is stepped over is used up for good, and
+// whoever stole the key in use may propose a number, too.
+constexpr std::uint32_t kLargestKeyStep = 65'536;
+bool is_next_key(std::uint32_t in_use, std::uint32_t number);
+// Throws InputError, which says which numbers may follow.
+void check_next_key(std::uint32_t in_use, std::uint32_t number);
+
 // The code of bytes that come in pieces. Throws RunError where OpenSSL has no HMAC-SHA-256.
 class KeyedHash {
  public:

@@ -66,13 +66,13 @@ std::size_t covered(const Places& places) {
   return bytes;
 }
 
-// What the search for right check sums met of an application.
+// What the search for right checksums met of an application.
 struct Met {
   std::size_t headers = 0, right = 0;
   bool beside = false;  // a right packet touches another, or an end of the stream
 };
 
-// By their check sums, one behind the other; of the believed applications, or of all.
+// By their checksums, one behind the other; of the believed applications, or of all.
 Places checked_places(const Stream& stream, const Applications* believed, std::map<Application, Met>& met) {
   Places places;
   for (std::size_t at = 0; at < stream.size();) {
@@ -86,7 +86,7 @@ Places checked_places(const Stream& stream, const Applications* believed, std::m
   return places;
 }
 
-// A check sum is right by chance once in 2^16. An application is believed where it has two that are right, or one that touches another, and
+// A checksum is right by chance once in 2^16. An application is believed where it has two that are right, or one that touches another, and
 // these are more than one in a thousand of what looks like its headers.
 Applications believed_applications(const Stream& stream) {
   std::map<Application, Met> met;

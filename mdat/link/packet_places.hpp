@@ -20,9 +20,9 @@ constexpr std::uint16_t kIdleApid = 0x7FF;
 
 // In the order of the stream, none over another. Three ways:
 // - packet after packet from the first byte to the last, by their lengths;
-// - packets whose check sums are right, of applications that are believed; between and behind them packets with wrong or no check sums that
+// - packets whose checksums are right, of applications that are believed; between and behind them packets with wrong or no checksums that
 //   fill the room by their lengths, so that other bytes are skipped;
-// - packets without check sums, each behind a prefix of the same length (at most 32 bytes), most of them of the same applications.
+// - packets without checksums, each behind a prefix of the same length (at most 32 bytes), most of them of the same applications.
 // The first holds where it explains the stream, then the second where its packets are more than half of the stream; otherwise the one of
 // the two with more packets whose count follows the one before. A header of six zero bytes is fill. The time is linear in the stream's
 // length.

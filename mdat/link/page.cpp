@@ -85,7 +85,7 @@ DocumentSection housekeeping_section() {
       {"Service 3 sends structures at the end of a frame. Each can be disabled and enabled, be given a period in frames (0: when there is "
        "news), and be asked for once, disabled or not. At first `pose` comes with each scan and `link` and `sensor` when there is news. "
        "The changes of "
-       "the mode that a pose which is not sent would have told are told by events alone.",
+       "the mode that a pose which is not sent would have reported are reported by events alone.",
        "Service 9: the headers of telemetry state the component's own time (time_status 0) until `correlate_time` names a moment in both "
        "times; from then on they state spacecraft time (time_status 1). Items always state the component's time, and commands too; `link` "
        "says the difference. The subservice is one of those that PUS-C leaves to missions."},
@@ -100,14 +100,14 @@ DocumentSection event_section() {
   DocumentSection section{
       2,
       "Events",
-      {"Service 5 tells what happened: at the end of its frame, with the time at which it happened. The subservice is the severity: 1 "
+      {"Service 5 reports what happened: at the end of its frame, with the time at which it happened. The subservice is the severity: 1 "
        "informative, 2 low (the component deals with it), 3 medium (it costs poses), 4 high (somebody is needed). The source data begin "
        "with the number of the event, 2 bytes.",
        format("Each event can be disabled and enabled; the log that survives a restart keeps it all the same. One that would fill the link "
-              "is told so many times in so many frames; how often it "
-              "was not told follows as `events_suppressed`. A frame holds %zu events; `events_dropped` counts the others.",
+              "is reported so many times in so many frames; how often it "
+              "was not reported follows as `events_suppressed`. A frame holds %zu events; `events_dropped` counts the others.",
               kMaxEventsPerFrame)},
-      {{"number", "name", "severity", "told", "meaning", "cause", "action"}, {}}};
+      {{"number", "name", "severity", "reported", "meaning", "cause", "action"}, {}}};
   for (const EventRow& row : event_rows::kRows) {
     section.table.rows.push_back({std::to_string(static_cast<unsigned>(row.id)), row.name,
                                   severity_text(kPackets[kPackets.size() - kEvents + static_cast<std::size_t>(row.id)]),
@@ -133,7 +133,8 @@ constexpr const char* kOfKeys =
     "With an authenticator an image needs a signature behind its last byte as well, which `begin_image` counts among its bytes, and which "
     "its CRC-32C does not cover; that of `mdat` is the HMAC-SHA-256 over all bytes of the image, 32 bytes. `change_key` puts a further key "
     "of commands on trial by its number: for 300 frames both keys count, then the new one has been confirmed by `confirm_key`, signed with "
-    "it, or is given up (`docs/decisions/keys-by-link.md`).";
+    "it, or is given up. Where the board cannot store it, `confirm_key` fails as `not_kept`, and the trial goes on. Numbers grow and come "
+    "to an end: `mdat` takes one that is at most 65,536 beyond that of the key in use (`docs/decisions/keys-by-link.md`).";
 
 constexpr const char* kOfStreams =
     "In a byte stream what has no right CRC belongs to no packet: it is counted as skipped bytes (packet `link`), and not answered. A "
@@ -148,7 +149,7 @@ DocumentSection service_section() {
               "the "
               "next. A command takes effect at the next boundary, at most one frame later. What nobody sent who may command, whatever is "
               "wrong with it, has room of its own: %u such packets are looked at in a frame, %u of them are answered, and %u more whose "
-              "sequence count alone is wrong. All are counted in the packet `link`. With an authenticator who may command is told by the "
+              "sequence count alone is wrong. All are counted in the packet `link`. With an authenticator who may command is known by the "
               "signature, and is always answered; without one each refused packet counts as nobody's. Answers wait for the link in room "
               "of their own, too (%u bytes), so that no other telemetry keeps them from the operator.",
               kMaxCommandsPerFrame, kMaxUrgentPerFrame, kMaxStrangersPerFrame, kMaxRefusalsPerFrame, kMaxRefusalsPerFrame,
@@ -163,12 +164,11 @@ std::string kind_text(const ParameterRow& row) {
 }
 
 DocumentTable parameter_table() {
-  DocumentTable table{{"number", "name", "unit", "type", "least", "most", "preset", "set in flight", "meaning"}, {}};
-  std::size_t number_in_list = 0;
+  DocumentTable table{{"id", "name", "unit", "type", "least", "most", "preset", "set in flight", "meaning"}, {}};
+  std::size_t index = 0;
   for (const ParameterRow& row : parameter_rows()) {
-    const std::size_t i = number_in_list++;
-    table.rows.push_back({std::to_string(i), row.key, row.unit, kind_text(row), real_text(row.minimum), real_text(row.maximum),
-                          real_text(row.preset), is_changeable(i) ? "yes" : "no", row.meaning});
+    table.rows.push_back({std::to_string(row.id), row.key, row.unit, kind_text(row), real_text(row.minimum), real_text(row.maximum),
+                          real_text(row.preset), is_changeable(index++) ? "yes" : "no", row.meaning});
   }
   return table;
 }
@@ -254,19 +254,20 @@ std::vector<DocumentSection> transport_sections() {
        "Links",
        {"A board gives the component a link (`fsw/link/byte_link.hpp`): a stream of bytes, or datagrams of one packet each. On Linux these "
         "are "
-        "`udp://[HOST]:PORT`, `tcp://[HOST]:PORT` (one ground station is told at a time) and "
+        "`udp://[HOST]:PORT`, `tcp://[HOST]:PORT` (one ground station gets telemetry at a time) and "
         "`file://PATH` (commands from `PATH.commands`, telemetry to `PATH`); without a host they are bound to the loopback address. `mdat "
         "run "
         "--link` runs a component in real time behind one of them, and `mdat command NAME ITEM=VALUE ... --to` commands it. On the "
         "bare boards it is a serial port (`docs/boards/ppc603e.md`, `docs/boards/cortexa9.md`).",
         "By UDP anybody may send to the port. Telemetry goes to senders of valid commands, with a key of signed ones: the first of them "
-        "keeps its place until it is silent for 30 s and another one comes; up to three more are told beside it, and the one that was "
-        "silent longest makes way. `mdat run --telemetry-to HOST:PORT` names who is told besides, from the beginning. No other datagram "
+        "keeps its place until it is silent for 30 s and another one comes; up to three more get it as well, and the one that was "
+        "silent longest makes way. `mdat run --telemetry-to HOST:PORT` names who gets telemetry besides, from the beginning. No other "
+        "datagram "
         "moves anything. An answer also goes to who asked.",
-        "By TCP up to four may be connected, and each one's commands are taken. The first one is told telemetry, until another one has "
+        "By TCP up to four may be connected, and each one's commands are taken. The first one gets telemetry, until another one has "
         "sent "
         "a valid command while it has sent none for 30 s, or never; where somebody else waits, one who never sent any is sent away after "
-        "30 s."},
+        "30 s. An answer goes to who asked alone."},
        {}},
       {2, "Types", {}, type_table()}};
 }
@@ -286,11 +287,11 @@ std::vector<DocumentSection> interface_document(std::uint16_t apid) {
        "Parameters",
        {"Of the mission image, in the units of the mission file; the image carries them in SI. Service 20 changes those that may be "
         "changed: "
-        "`set_parameter` within the limits below, from the next boundary on; `report_parameter` tells value and image's value; "
-        "`revert_parameters` takes all changes back. Changes are kept apart from the image, in two copies with check sums that are "
+        "`set_parameter` within the limits below, from the next boundary on; `report_parameter` answers with value and image's value; "
+        "`revert_parameters` takes all changes back. Changes are kept apart from the image, in two copies with checksums that are "
         "compared in "
         "each frame (events `parameters_repaired` and `parameters_lost`), and hold for the next image, too. They end with a restart. `mdat "
-        "command` takes a parameter by its name."},
+        "command` takes a parameter by its name. Ids are never used again for another parameter, so a later version changes none of them."},
        parameter_table()});
   return document;
 }

@@ -53,7 +53,7 @@ Packet Signer::sign(const Packet& packet) {
   const ConstBytes bytes = view(packet);
   const std::uint16_t apid = bytes.size() < kPrimaryHeaderBytes ? kApid : read_primary_header(bytes).apid;  // whoever it is for
   if (parse_command(bytes, header, data, apid) != PacketFault::kNone) throw RunError("what is no command is not signed");
-  // The code covers the length field as it will be: the packet is finished once for that, and once for its check sum.
+  // The code covers the length field as it will be: the packet is finished once for that, and once for its checksum.
   Packet out(packet.size() + kTrailerBytes);
   const auto finish = [&](const Digest& code) {
     ByteWriter writer{Bytes(out.data(), out.size())};
@@ -105,7 +105,7 @@ bool SignatureCheck::authentic(ConstBytes packet, ConstBytes trailer) {
   if ((!by_key && !by_trial) || number <= number_) return false;
   number_ = number;
   by_trial_ = by_trial;
-  keep();
+  static_cast<void>(keep(key_.number));
   return true;
 }
 
@@ -124,23 +124,22 @@ bool SignatureCheck::image_authentic(ConstBytes signature) {
 }
 
 bool SignatureCheck::try_key(std::uint32_t number) {
-  if (number <= key_.number) return false;
+  if (!is_next_key(key_.number, number)) return false;
   trial_ = derive_command_key(master_, number);
   by_trial_ = false;
   return true;
 }
 
-void SignatureCheck::end_key_trial(bool kept) {
-  if (!trial_) return;
+bool SignatureCheck::end_key_trial(bool kept) {
+  if (!trial_) return false;
+  if (kept && !keep(trial_->number)) return false;
   if (kept) key_ = *trial_;
   trial_.reset();
   by_trial_ = false;
-  keep();
+  return true;
 }
 
-void SignatureCheck::keep() const {
-  if (keep_) keep_({key_.number, number_});
-}
+bool SignatureCheck::keep(std::uint32_t key) const { return !keep_ || keep_({key, number_}); }
 
 SignatureState load_signature_state(const std::string& store) {
   const std::filesystem::path file = state_file(store);
@@ -166,9 +165,11 @@ SignatureCheck::Keep keep_in(const std::string& store) {
   return [store, told = false](const SignatureState& now) mutable {
     try {
       save_signature_state(store, now);
+      return true;
     } catch (const InputError& error) {
       if (!std::exchange(told, true))
         std::fprintf(stderr, "warning: %s; the next run with this store takes what was signed in this one again\n", error.what());
+      return false;
     }
   };
 }

@@ -44,8 +44,9 @@ struct SignatureState {
 // The component's end, which has the master.
 class SignatureCheck final : public Authenticator {
  public:
-  using Keep = std::function<void(const SignatureState&)>;
-  // `keep` is called with each state that a restart has to begin with; it may be empty.
+  using Keep = std::function<bool(const SignatureState&)>;
+  // `keep` is called with each state that a restart has to begin with, and says whether it is kept; it may be empty: nothing outlives a
+  // restart then.
   explicit SignatureCheck(Key master, const SignatureState& state = {}, Keep keep = {});
   std::size_t trailer_bytes() const override;
   bool authentic(ConstBytes packet, ConstBytes trailer) override;
@@ -55,11 +56,11 @@ class SignatureCheck final : public Authenticator {
   bool image_authentic(ConstBytes signature) override;
   bool try_key(std::uint32_t number) override;
   bool by_key_on_trial() const override { return by_trial_; }
-  void end_key_trial(bool kept) override;
+  bool end_key_trial(bool kept) override;
 
  private:
   bool is_by(const Key& key, ConstBytes packet, ConstBytes trailer) const;
-  void keep() const;
+  bool keep(std::uint32_t key) const;
 
   Key master_, key_;
   std::optional<Key> trial_;
@@ -78,7 +79,7 @@ void save_signature_state(const std::string& store, const SignatureState& state)
 // was recorded before is refused; but a link that is a file has commands that were written before.
 SignatureState state_at_start(const std::string& store, const std::string& link);
 // Into that store, which is there; without one nothing is kept. Throws InputError where it cannot be written. What cannot be written later
-// is told as a warning, once: commands go on.
+// is told as a warning, once: commands go on, but no further key is confirmed.
 SignatureCheck::Keep keep_in(const std::string& store);
 
 }  // namespace lasso::mdat

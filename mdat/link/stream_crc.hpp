@@ -1,4 +1,4 @@
-// Check sums of any piece of a stream, each in constant time.
+// Checksums of any piece of a stream, each in constant time.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 namespace lasso::mdat {
 
 // A CRC is linear: the register behind bytes a to b, begun with s at a, is R[b] + (R[a] + s) x^(8(b - a)) modulo the polynomial, over
-// GF(2), where R[i] is the register behind the first i bytes, begun with 0. Bytes that look like headers cost no check sum over what they
+// GF(2), where R[i] is the register behind the first i bytes, begun with 0. Bytes that look like headers cost no checksum over what they
 // announce.
 class StreamCrc {
  public:

@@ -1,4 +1,4 @@
-// What comes over a link: packets of telemetry whose check sum is right, and how many bytes belong to none.
+// What comes over a link: packets of telemetry whose checksum is right, and how many bytes belong to none.
 #pragma once
 
 #include <chrono>

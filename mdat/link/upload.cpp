@@ -206,8 +206,7 @@ std::uint32_t image_crc(const std::vector<std::uint8_t>& image) {
 }
 
 std::vector<std::uint8_t> image_to_send(const std::vector<std::uint8_t>& image, const std::optional<Key>& key) {
-  if (!key) return without_signature(image);
-  return key->number == 0 && !has_signature(image) ? sign_image(image, *key) : image;
+  return key && key->number == 0 && !has_signature(image) ? sign_image(image, *key) : image;
 }
 
 void check_signature(const std::string& name, const std::vector<std::uint8_t>& image, const std::optional<Key>& key) {

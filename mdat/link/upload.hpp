@@ -27,11 +27,11 @@ enum class UploadEnd {
   kConfirmed,  // active, and has given valid poses
 };
 
-// The check sum by which a component names an image: its last four bytes, before its signature.
+// The checksum by which a component names an image: its last four bytes, before its signature.
 std::uint32_t image_crc(const std::vector<std::uint8_t>& image);
 
-// What a component that has `key` takes: an image that is not signed is signed with it, where it is the master; without a key the signature
-// stays behind, as the component would take it for bytes too many.
+// What a component that has `key` takes: an image that is not signed is signed with it, where it is the master. A signed one is sent as it
+// is: without a key, too, as the link may be authenticated below the component, and the image is judged all the same.
 std::vector<std::uint8_t> image_to_send(const std::vector<std::uint8_t>& image, const std::optional<Key>& key);
 
 // Throws InputError, which names `name`, where a component that has `key` would refuse the image for its signature.

@@ -50,7 +50,7 @@ std::string unpacked(const ChunkParts& parts, std::string& why) {
     if (!(parts.compression == "zstd" ? unpack_zstd : unpack_lz4)(parts.body, records)) why = "a chunk cannot be unpacked";
   }
   if (why.empty() && (records.size() != parts.size || (parts.crc != 0 && crc32_of(records) != parts.crc)))
-    why = "a chunk has another check sum than it says";
+    why = "a chunk has another checksum than it says";
   return why.empty() ? records : std::string();
 }
 

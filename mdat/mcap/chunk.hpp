@@ -16,7 +16,7 @@ struct ChunkParts {
 // Of a chunk record's content, which outlives them. False: it is shorter than it says.
 bool parts_of(std::string_view content, ChunkParts& parts);
 
-// The records of a chunk. Empty, with a reason, where it cannot be unpacked, or has another check sum than it says.
+// The records of a chunk. Empty, with a reason, where it cannot be unpacked, or has another checksum than it says.
 std::string unpacked(const ChunkParts& parts, std::string& why);
 
 }  // namespace lasso::mdat::mcap

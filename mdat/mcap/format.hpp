@@ -64,13 +64,13 @@ void put_channel(const Channel& channel, std::string& bytes);
 void put_message(const Message& message, std::string& bytes);
 void put_attachment(const Attachment& attachment, std::string& bytes);
 
-// The content of a record; false where it is shorter than it says, or where a check sum says that it is another.
+// The content of a record; false where it is shorter than it says, or where a checksum says that it is another.
 bool get(std::string_view content, Schema& schema);
 bool get(std::string_view content, Channel& channel);
 bool get(std::string_view content, Message& message);
 bool get(std::string_view content, Attachment& attachment);
 
-// The format has no check sum for metadata: ours is an entry under this key, of all others.
+// The format has no checksum for metadata: ours is an entry under this key, of all others.
 constexpr char kMetadataCrc[] = "crc32";
 std::string metadata_crc(std::string_view name, const Text& map);
 

@@ -14,7 +14,7 @@ bool is_chunk_head(std::string_view head, std::uint64_t rest) {
   ByteReader reader(head);
   if (reader.get<std::uint8_t>() != static_cast<std::uint8_t>(Op::kChunk)) return false;
   const auto length = reader.get<std::uint64_t>();
-  (void)reader.take(28);  // times, size, check sum
+  (void)reader.take(28);  // times, size, checksum
   const std::string_view compression = reader.text();
   const auto body = reader.get<std::uint64_t>();
   const bool known = compression.empty() || compression == "zstd" || compression == "lz4";
@@ -90,7 +90,7 @@ bool Reader::is_sound(Op op, std::string_view content) const {
   return (op > Op::kNone && op < Op::kDataEnd) || kind >= kOthers;
 }
 
-// The next one behind the last record whose lengths or check sum are right; false: there is none.
+// The next one behind the last record whose lengths or checksum are right; false: there is none.
 bool Reader::find_chunk() {
   constexpr std::uint64_t kBlock = std::uint64_t{1} << 20;
   in_.clear();
@@ -143,7 +143,7 @@ void Reader::take_chunk(std::string_view content, const Visitor& visitor) {
 
 void Reader::take_attachment(std::string_view content, const Visitor& visitor) {
   Attachment attachment;
-  if (!get(content, attachment)) return note("an attachment has another check sum than it says");
+  if (!get(content, attachment)) return note("an attachment has another checksum than it says");
   search_from_ = at_;
   visitor.attachment(attachment);
 }
@@ -157,7 +157,7 @@ void Reader::take_metadata(std::string_view content, const Visitor& visitor) {
   if (crc != map.end()) {
     const std::string said = crc->second;
     map.erase(crc);
-    if (said != metadata_crc(name, map)) return note("metadata has another check sum than it says");
+    if (said != metadata_crc(name, map)) return note("metadata has another checksum than it says");
   }
   visitor.metadata(name, map);
 }
@@ -195,7 +195,7 @@ void Reader::end_data(std::string_view content) {
   ByteReader reader(content);
   const auto said = reader.get<std::uint32_t>();
   if (said != 0 && damage_.empty() && said != record_crc_)
-    note("the data before has another check sum than it says: what has none of its own, such as an index, is damaged");
+    note("the data before has another checksum than it says: what has none of its own, such as an index, is damaged");
 }
 
 // False: there is no further one.

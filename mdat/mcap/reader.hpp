@@ -38,9 +38,9 @@ class Reader {
   const std::map<std::uint16_t, Channel>& channels() const { return channels_; }  // that have been met
   const std::map<std::uint16_t, Schema>& schemas() const { return schemas_; }
 
-  // Everything from the header on, once. A chunk, an attachment or a record of metadata is told whole or not at all: what has another check
-  // sum than it says, or cannot be unpacked, is damage, and left out. So is what lies between a record that is none, or reaches beyond the
-  // file, and the next chunk; and that fewer messages were read than the file's summary counts, or its data has another check sum.
+  // Everything from the header on, once. A chunk, an attachment or a record of metadata is told whole or not at all: what has another
+  // checksum than it says, or cannot be unpacked, is damage, and left out. So is what lies between a record that is none, or reaches beyond
+  // the file, and the next chunk; and that fewer messages were read than the file's summary counts, or its data has another checksum.
   std::vector<Damage> read(const Visitor& visitor);
 
   const std::vector<Damage>& damage() const { return damage_; }  // so far

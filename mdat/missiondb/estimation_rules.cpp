@@ -28,7 +28,7 @@ std::string agreement_fault(const Subject& s) {
   const double contradicting = 1 - s.p.agreement_min;
   if (s.scenario != nullptr || contradicting <= kMostContradicting) return "";
   return "as many rays as " + percent_text(contradicting) +
-         " of the returns may contradict a pose: a target that is not as modelled is then not told; the preset is " +
+         " of the returns may contradict a pose: a target that is not as modelled is then not reported; the preset is " +
          figure(preset_parameters().agreement_min);
 }
 
@@ -62,7 +62,7 @@ std::string age_fault(const Subject& s) {
 }
 
 std::string ratio_fault(const Subject& s) {
-  if (!is_in_order(s.p, kSearchWay) || s.p.search_ratio_min <= kLargestRatio) return "";
+  if (!is_in_order(s.p, kSearchSource) || s.p.search_ratio_min <= kLargestRatio) return "";
   return "the best competitor seldom explains a scan " + figure(kLargestRatio) +
          " times worse: most searches would be ambiguous; 1.3 is 30 %";
 }
@@ -99,15 +99,16 @@ std::string fast_start_fault(const Subject& s) {
 std::string silence_fault(const Subject& s) {
   if (s.p.link_silence_max_s == 0 || s.p.link_silence_max_s >= s.p.period_s) return "";
   return "is less than filter.period_s, which is " + figure(s.p.period_s) +
-         " s: link_silent would be told between any two commands; 0 is never";
+         " s: link_silent would be reported between any two commands; 0 is never";
 }
 
 template <int kTurn>
 std::string repeated_fault(const Subject& s) {
   static constexpr const char* kKeys[] = {"start.first", "start.second", "start.third", "start.fourth", "start.fifth"};
-  const double ways[] = {s.p.start_first, s.p.start_second, s.p.start_third, s.p.start_fourth, s.p.start_fifth};
+  const double sources[] = {s.p.start_first, s.p.start_second, s.p.start_third, s.p.start_fourth, s.p.start_fifth};
   for (int i = 0; i < kTurn; ++i) {
-    if (ways[kTurn] != 0 && ways[i] == ways[kTurn]) return std::string("expected another way than that of ") + kKeys[i] + ", or none";
+    if (sources[kTurn] != 0 && sources[i] == sources[kTurn])
+      return std::string("expected another source than that of ") + kKeys[i] + ", or none";
   }
   return "";
 }
@@ -129,16 +130,16 @@ std::string behind_fault(const Subject& s) {
 }
 
 std::string unused_start_fault(const Subject& s) {
-  if (s.p.initial_present == 0 || is_in_order(s.p, kAprioriWay)) return "";
+  if (s.p.initial_present == 0 || is_in_order(s.p, kAprioriSource)) return "";
   return "the pose in [tracking.initial] is not used: \"apriori\" is none of start.first to start.fifth";
 }
 
 std::string missing_start_fault(const Subject& s) {
-  if (s.p.initial_present != 0 || !is_in_order(s.p, kAprioriWay)) return "";
-  for (const double way : {s.p.start_first, s.p.start_second, s.p.start_third, s.p.start_fourth, s.p.start_fifth}) {
-    if (way != 0 && way != kAprioriWay) return "";
+  if (s.p.initial_present != 0 || !is_in_order(s.p, kAprioriSource)) return "";
+  for (const double source : {s.p.start_first, s.p.start_second, s.p.start_third, s.p.start_fourth, s.p.start_fifth}) {
+    if (source != 0 && source != kAprioriSource) return "";
   }
-  return "expected true: the only way to start, \"apriori\", needs the pose in [tracking.initial]";
+  return "expected true: the only source of a start, \"apriori\", needs the pose in [tracking.initial]";
 }
 
 std::string short_range_fault(const Subject& s) {

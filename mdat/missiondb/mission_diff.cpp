@@ -33,6 +33,10 @@ std::vector<ValueChange> changes_between(const std::vector<EffectiveValue>& firs
   return changes;
 }
 
+std::vector<EffectiveValue> identity_values(std::uint32_t id, std::uint32_t version) {
+  return {{"mission.id", std::to_string(id), "", "", ""}, {"mission.version", std::to_string(version), "", "", ""}};
+}
+
 std::vector<EffectiveValue> values_of(const MissionParameters& parameters) {
   std::vector<EffectiveValue> values;
   for (const ParameterRow& row : parameter_rows()) {

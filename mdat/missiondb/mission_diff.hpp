@@ -16,6 +16,9 @@ struct ValueChange {
 // In the order of the first, then what the second alone has. Values that in both follow another key's are not told again.
 std::vector<ValueChange> changes_between(const std::vector<EffectiveValue>& first, const std::vector<EffectiveValue>& second);
 
+// What a mission is told from others by, as effective values.
+std::vector<EffectiveValue> identity_values(std::uint32_t id, std::uint32_t version);
+
 // The flight parameters as effective values, as an image has them.
 std::vector<EffectiveValue> values_of(const MissionParameters& parameters);
 

@@ -257,7 +257,7 @@ const std::vector<ValueRow>& relative_rows() {
       required(text_row("in", "[^\\x00-\\x1f]+", "node that stands on what carries the sensor: whose axes the pose is in")),
       text_row("axes", "[^\\x00-\\x1f]+",
                "node whose axes it is said in instead, such as lvlh: how they turn against the sensors is taken as known"),
-      flag_row("telemetry", "the component tells it in telemetry, too, if the axes stand still against the sensors", 1),
+      flag_row("telemetry", "the component reports it in telemetry, too, if the axes stand still against the sensors", 1),
   };
   return rows;
 }

@@ -40,9 +40,9 @@ std::string degrees_text(double rad) { return figure(rad / kRadPerDeg) + " deg";
 
 std::string percent_text(double share) { return figure(100 * share) + " %"; }
 
-bool is_in_order(const MissionParameters& p, double way) {
+bool is_in_order(const MissionParameters& p, double source) {
   const double order[] = {p.start_first, p.start_second, p.start_third, p.start_fourth, p.start_fifth};
-  return std::find(std::begin(order), std::end(order), way) != std::end(order);
+  return std::find(std::begin(order), std::end(order), source) != std::end(order);
 }
 
 double range_sigma_m(const SensorParameters& sensor, double z_m) { return std::hypot(sensor.sigma0_m, sensor.sigma_k_per_m * z_m * z_m); }

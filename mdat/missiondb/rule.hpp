@@ -66,8 +66,8 @@ std::string figure(double value);
 std::string degrees_text(double rad);  // "3.1 deg"
 std::string percent_text(double share);
 
-bool is_in_order(const MissionParameters& p, double way);
-constexpr double kNavigationWay = 2, kAprioriWay = 3, kSearchWay = 5;  // positions in the choices of start.first
+bool is_in_order(const MissionParameters& p, double source);
+constexpr double kNavigationSource = 2, kAprioriSource = 3, kSearchSource = 5;  // positions in the choices of start.first
 inline bool checks_starts(const MissionParameters& p) { return p.start_check > 0.5; }
 
 // The target's greatest acceleration over what the filter takes it for: beyond, its track is doubtful.

@@ -23,7 +23,7 @@ PatternKind kind_of(const MissionParameters& p) { return static_cast<PatternKind
 
 double most_returns(const MissionParameters& p) { return std::floor(p.points * (1 - p.dropout_probability)); }
 
-bool searches(const MissionParameters& p) { return is_in_order(p, kSearchWay) || checks_starts(p); }
+bool searches(const MissionParameters& p) { return is_in_order(p, kSearchSource) || checks_starts(p); }
 
 // Of one scan: what a search looks at.
 double most_looked_at(const MissionParameters& p) {
@@ -139,7 +139,7 @@ std::string few_returns_fault(const Subject& s) {
 
 std::string search_work_fault(const Subject& s) {
   const double work = s.p.search_slice * s.p.search_frames;
-  if (!is_in_order(s.p, kSearchWay) || work >= kSearchWork) return "";
+  if (!is_in_order(s.p, kSearchSource) || work >= kSearchWork) return "";
   return "in search.frames, which are " + number_text(s.p.search_frames) + ", a search does " + figure(work) +
          " units of work, and most take " + figure(kSearchWork) + ": it is given up before it ends";
 }

@@ -111,7 +111,7 @@ std::string drift_sigma_fault(const Subject& s) {
   return "is " + figure(speed_mps / s.p.initial_rate_mps) + " sigmas of filter.initial_rate_mps, which is " + figure(s.p.initial_rate_mps);
 }
 
-bool is_searched(const Subject& s) { return s.scenario->seeks_bearing() && is_in_order(s.p, kSearchWay); }
+bool is_searched(const Subject& s) { return s.scenario->seeks_bearing() && is_in_order(s.p, kSearchSource); }
 
 std::string searched_spin_fault(const Subject& s) {
   const double turn_rad = rate_radps(s) * kBetweenScans_s;
@@ -144,8 +144,8 @@ std::string many_runs_fault(const Subject& s) {
 }
 
 std::string no_way_fault(const Subject& s) {
-  if (!s.scenario->seeks_bearing() || is_in_order(s.p, kSearchWay)) return "";
-  if (s.scenario->autonomous != 0 && is_in_order(s.p, kNavigationWay) && s.scenario->navigation_from_s < end_s(s)) return "";
+  if (!s.scenario->seeks_bearing() || is_in_order(s.p, kSearchSource)) return "";
+  if (s.scenario->autonomous != 0 && is_in_order(s.p, kNavigationSource) && s.scenario->navigation_from_s < end_s(s)) return "";
   return "no pose is given, and \"search\" is none of start.first to start.fifth: the component finds the bearing, and never a pose";
 }
 
@@ -176,7 +176,7 @@ std::string few_frames_fault(const Subject& s) {
          " frames: results say nothing of them";
 }
 
-bool is_helped(const Subject& s) { return s.scenario->autonomous != 0 && is_in_order(s.p, kNavigationWay); }
+bool is_helped(const Subject& s) { return s.scenario->autonomous != 0 && is_in_order(s.p, kNavigationSource); }
 
 std::string late_navigation_fault(const Subject& s) {
   const double from_s = s.scenario->navigation_from_s;

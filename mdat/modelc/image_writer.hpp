@@ -9,7 +9,7 @@
 
 namespace lasso::mdat {
 
-// The whole image, big-endian, with directory, check sums and trailer (image_format.hpp). Throws CompileError over kMaxImageBytes.
+// The whole image, big-endian, with directory, checksums and trailer (image_format.hpp). Throws CompileError over kMaxImageBytes.
 std::vector<std::uint8_t> write_image(std::uint32_t mission_id, std::uint32_t mission_version, const MissionParameters& parameters,
                                       const ModelTables& tables);
 

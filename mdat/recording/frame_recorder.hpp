@@ -50,7 +50,7 @@ class FrameRecorder final : public RunListener {
   void on_frame(const FlownFrame& frame) override;
   void on_commands(TimeUs slot_us, ConstBytes bytes) override;
   void on_pair(const TakenPair& pair) override;
-  // A frame of which no more is known than what the component tells; one that has no scan leaves no message.
+  // A frame of which no more is known than what the component reports; one that has no scan leaves no message.
   void on_report(const PoseTelemetry& told);
   // All so far is in the file; returns its bytes, for who reads it while the run flies (mcap::IndexedFile). 0: there is no file.
   std::uint64_t flush();

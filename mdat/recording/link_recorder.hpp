@@ -1,4 +1,4 @@
-// Telemetry that comes over a link, as the messages of a run: recorded, and told to viewers. What a link does not carry is absent: scans,
+// Telemetry that comes over a link, as the messages of a run: recorded, and sent to viewers. What a link does not carry is absent: scans,
 // true poses.
 #pragma once
 

@@ -139,7 +139,7 @@ void check_run(const fs::path& file, RecordedRun& run, bool merged) {
         "whole recording");
 }
 
-// What the component told up to that time.
+// What the component reported up to that time.
 void keep_telemetry(const std::vector<TimedPacket>& packets, std::uint64_t until_ns, RecordedRun& run) {
   run.whole = until_ns == UINT64_MAX;
   for (const TimedPacket& packet : packets) {

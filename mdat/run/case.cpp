@@ -21,8 +21,6 @@
 namespace lasso::mdat {
 namespace {
 
-constexpr std::uint32_t kPipelineFrames = 2;  // scan k is reported at boundary k + 2
-
 Pose to_pose(const double (&q)[4], const double (&p_m)[3]) { return {Quat(q[3], q[0], q[1], q[2]), Vec3(p_m[0], p_m[1], p_m[2])}; }
 
 // Everything of one case that lives as long as it runs.

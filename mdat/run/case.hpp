@@ -45,7 +45,24 @@ class MadeSensor {
 // Of the mission's stereo head, for a case, with noise by a seed.
 using MakeStereo = std::function<std::unique_ptr<MadeSensor>(const CaseSetup&, std::uint64_t)>;
 
-struct CaseSetup {
+// What is chosen for a run besides its mission, from the command line down to each case.
+struct CaseOptions {
+  std::optional<lcs::Device> wire;                        // the heads that are reached over their lines (wired)
+  std::shared_ptr<const sim::SensorRecording> replay;     // which the sensors play, instead of looking at the target
+  std::string camera_line;                                // of this machine, over which it is reached, in real time; empty: simulated
+  bool remote_line = false;                               // which may lead to other machines
+  std::optional<TriangulationCalibration> camera_optics;  // of the simulated camera; otherwise the mission's calibrations, or the design's
+  double camera_degC = 20;
+  sim::LcsFaults camera_faults;  // of each that is; times since frame 0
+  MakeStereo make_stereo;        // of sensors of this kind, where there is noise; empty: a mission that has one is refused
+  ByteLink* link = nullptr;      // an operator's; the run then keeps the clock's pace, and nobody else starts a track that is lost
+  std::shared_ptr<const CommandStream> commands;  // those of an earlier run, instead of a link: given again, as fast as it goes
+  std::uint16_t apid = kApid;                     // of the component
+  Authenticator* authenticator = nullptr;         // of the link's commands and images; null: they need none
+  std::string store;  // folder of the board's store, whose image takes the place of the mission's if there is one; empty: none
+};
+
+struct CaseSetup : CaseOptions {
   Scenario scenario;
   double range_m = 0;
   bool noise = true;  // of the simulated scanner
@@ -53,30 +70,18 @@ struct CaseSetup {
   std::uint32_t frames = 0;
   MissionParameters parameters{};  // as compiled into the image
   std::vector<FurtherSensor> further_sensors;
-  std::optional<lcs::Device> wire;                     // the heads that are reached over their lines (wired)
-  std::shared_ptr<const sim::SensorRecording> replay;  // which the sensors play, instead of looking at the target
-  std::shared_ptr<sim::SensorRecording> record;        // gets what the sensors give
-  std::string camera_line;                             // of this machine, over which it is reached, in real time; empty: simulated
-  bool remote_line = false;                            // which may lead to other machines
-  std::optional<TriangulationCalibration>
-      camera_optics;          // of the simulated camera; otherwise those that `calibrations` say, or the design's
-  Calibrations calibrations;  // of the mission
-  double camera_degC = 20;
-  sim::LcsFaults camera_faults;  // of each that is; times since frame 0
+  std::shared_ptr<sim::SensorRecording> record;  // gets what the sensors give
+  Calibrations calibrations;                     // of the mission
   SensorKind sensor = SensorKind::kLaserCamera;
-  sim::FlashModel flash;     // kFlashLidar
-  MakeStereo make_stereo;    // of sensors of this kind, where there is noise; empty: a mission that has one is refused
-  ByteLink* link = nullptr;  // an operator's; the run then keeps the clock's pace, and nobody else starts a track that is lost
-  std::shared_ptr<const CommandStream> commands;  // those of an earlier run, instead of a link: given again, as fast as it goes
-  std::uint16_t apid = kApid;                     // of the component
-  Authenticator* authenticator = nullptr;         // of the link's commands and images; null: they need none
-  std::string store;  // folder of the board's store, whose image takes the place of `image` if there is one; empty: none
+  sim::FlashModel flash;  // kFlashLidar
   const std::vector<std::uint8_t>* image = nullptr;
   const sim::RayCaster* target = nullptr;
   sim::OtherBodies others;  // what a scene has beside the target
   RunListener* listener = nullptr;
   std::vector<std::uint32_t> keep_frames;  // whose scans the result holds; ascending
   bool alone = false;                      // simulated on the caller's thread: other cases fill the other cores; the same bytes
+
+  void choose(const CaseOptions& options) { static_cast<CaseOptions&>(*this) = options; }
 };
 
 // A scan with all that a picture of it needs.

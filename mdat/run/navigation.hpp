@@ -13,7 +13,7 @@ class NavigationSystem {
   // Keeps references: both outlive it. The seed is the run's.
   NavigationSystem(const Scenario& scenario, const sim::Trajectory& truth, std::uint64_t seed);
 
-  // Offers what is due at `now_us`. A refusal is the component's affair: its telemetry tells it.
+  // Offers what is due at `now_us`. A refusal is the component's affair: its telemetry reports it.
   void offer(TimeUs now_us, Component& component);
 
  private:

@@ -34,15 +34,6 @@ std::vector<std::string> part_names(const MissionSource& source) {
   return names;
 }
 
-void set_camera(const CompiledMission& mission, const SimulationOptions& options, CaseSetup& setup) {
-  setup.calibrations = mission.source.calibrations;
-  setup.wire = options.wire;
-  setup.replay = options.replay;
-  setup.camera_optics = options.camera_optics;
-  setup.make_stereo = options.make_stereo;
-  setup.camera_degC = options.camera_degC;
-}
-
 // More runs than one are asked for.
 void refuse_what_serves_one(const SimulationOptions& options) {
   const std::string way_out = ": choose a scenario of one range, such as spin";
@@ -200,7 +191,6 @@ Plan make_plan(const CompiledMission& mission, SimulationResult& result, const s
         plan.cases.back().further_sensors = mission.source.further_sensors;
         plan.cases.back().sensor = mission.source.sensor;
         plan.cases.back().flash = mission.source.flash;
-        plan.cases.back().camera_faults = result.camera_faults;
       }
     }
   }
@@ -302,8 +292,7 @@ CaseSetup camera_case(const CompiledMission& mission, const SimulationOptions& o
   setup.parameters = parameters_for(mission.source, options.scenario);
   setup.target = &target;
   setup.others = make_other_bodies(setup.scenario, kEpochUs);
-  setup.camera_faults = options.camera_faults;
-  set_camera(mission, options, setup);
+  setup.choose(options);
   // The camera that runs alone is the mission's first of its kind.
   const auto first = mission.source.calibrations.begin();
   if (first != mission.source.calibrations.end()) setup.calibrations = {{0, first->second}};
@@ -340,14 +329,8 @@ SimulationResult simulate(const CompiledMission& mission, const SimulationOption
   if (options.calibration && options.wire) changed = recalibrated(mission, *options.wire, *options.calibration);
   Plan plan = make_plan(changed ? *changed : mission, result, *target, options.range.value_or(0), options.image, options.sign_image);
   for (CaseSetup& setup : plan.cases) {
-    setup.link = options.link;
-    setup.commands = options.commands;
-    setup.apid = options.apid;
-    setup.authenticator = options.authenticator;
-    setup.store = options.store;
-    setup.camera_line = options.camera_line;
-    setup.remote_line = options.remote_line;
-    set_camera(mission, options, setup);
+    setup.choose(options);
+    setup.calibrations = mission.source.calibrations;  // of the cameras as they are, whatever the image says
   }
   for (std::size_t i = 0; i < options.recorders.size(); ++i) {
     plan.cases.at(i).record = options.recorders[i].record;

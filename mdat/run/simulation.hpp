@@ -17,37 +17,25 @@ namespace lasso::mdat {
 
 using SignImage = std::function<std::vector<std::uint8_t>(const std::vector<std::uint8_t>&)>;
 
-struct SimulationOptions {
+// Of one case alone: a replay, a camera's line, a link or commands.
+struct SimulationOptions : CaseOptions {
   std::string scenario = "paper";
-  std::optional<std::uint64_t> seed;                   // otherwise the scenario's
-  std::optional<std::uint32_t> frames;                 // otherwise the scenario's
-  unsigned jobs = 1;                                   // cases at a time; the results do not depend on it
-  std::optional<lcs::Device> wire;                     // as CaseSetup's
-  sim::LcsFaults camera_faults;                        // of those cameras
-  std::shared_ptr<const sim::SensorRecording> replay;  // as CaseSetup's: of one case
-  std::optional<std::size_t> range;                    // this one of the scenario's alone, as it flies among the others
+  std::optional<std::uint64_t> seed;    // otherwise the scenario's
+  std::optional<std::uint32_t> frames;  // otherwise the scenario's
+  unsigned jobs = 1;                    // cases at a time; the results do not depend on it
+  std::optional<std::size_t> range;     // this one of the scenario's alone, as it flies among the others
   // What keeps each case, where it is recorded: as many as the scenario, as it stands, has ranges.
   struct CaseRecorder {
     std::shared_ptr<sim::SensorRecording> record;  // as CaseSetup's
     RunListener* listener = nullptr;
   };
   std::vector<CaseRecorder> recorders;
-  RunListener* listener = nullptr;                        // to the first case, besides its recorder
-  std::optional<TriangulationCalibration> camera_optics;  // as CaseSetup's
-  std::optional<TriangulationCalibration> calibration;    // in the image, instead of the mission's
-  double camera_degC = 20;
-  MakeStereo make_stereo;                         // as CaseSetup's
-  ByteLink* link = nullptr;                       // an operator's: one case, the scenario's first range, at the clock's pace
-  std::shared_ptr<const CommandStream> commands;  // as CaseSetup's: one case, too
-  std::uint16_t apid = kApid;                     // of each component
-  Authenticator* authenticator = nullptr;         // of the link's commands and images; null: they need none
-  SignImage sign_image;                           // as the authenticator wants the first image; empty: as it is
+  RunListener* listener = nullptr;                      // to the first case, besides its recorder
+  std::optional<TriangulationCalibration> calibration;  // in the image, instead of the mission's
+  SignImage sign_image;                                 // as the authenticator wants the first image; empty: as it is
   const std::vector<std::uint8_t>* image =
-      nullptr;               // that flies instead of the mission's, of the same period; the world stays the mission's
-  std::string store;         // of the run with a link: a folder, see CaseSetup
-  std::string camera_line;   // of this machine, over which the camera is reached, in real time: one case
-  bool remote_line = false;  // which may lead to other machines
-  bool plain = false;        // the scenario as it stands: one table, one variant
+      nullptr;         // that flies instead of the mission's, of the same period; the world stays the mission's
+  bool plain = false;  // the scenario as it stands: one table, one variant
 };
 
 // What a table compares. In the noise-free variants the estimator keeps the mission's noise model.

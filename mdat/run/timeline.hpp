@@ -29,7 +29,7 @@ struct TimelinePoint {
 };
 
 struct TimelineChange {
-  double t_s = 0;  // of the packet that tells it
+  double t_s = 0;  // of the packet that reports it
   TrackingMode from = TrackingMode::kStandby, to = TrackingMode::kStandby;
   ModeEvent event = ModeEvent::kStart;
 };

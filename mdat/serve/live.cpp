@@ -73,7 +73,7 @@ Live::~Live() {
 std::vector<LiveMission> Live::missions() const {
   std::vector<LiveMission> missions;
   if (const std::optional<fs::path> first = first_mission()) add_missions(first->parent_path(), true, missions);
-  add_missions(folder_.path(), false, missions);
+  if (folder_.takes_files()) add_missions(folder_.path(), false, missions);
   return missions;
 }
 

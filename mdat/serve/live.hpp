@@ -56,7 +56,7 @@ class Live {
   Live(const Live&) = delete;
   Live& operator=(const Live&) = delete;
 
-  // Shipped ones first, by name.
+  // Shipped ones first, by name; those below the folder unless a single recording is served.
   std::vector<LiveMission> missions() const;
   // Throws Refusal (404).
   LiveMission mission(const std::string& id) const;

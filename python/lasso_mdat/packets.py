@@ -41,7 +41,7 @@ class Packets(collections.abc.Mapping):
             at += size or 1
 
     def size_at(self, data, at):
-        """Of the whole packet there, with its right check sum; 0: there is none."""
+        """Of the whole packet there, with its right checksum; 0: there is none."""
         if len(data) - at < LEAST or data[at] >> 5 != 0 or (data[at] & 0x7) << 8 | data[at + 1] != self.apid:
             return 0
         size = HEAD + 1 + (data[at + 4] << 8 | data[at + 5])

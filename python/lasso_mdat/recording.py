@@ -67,7 +67,7 @@ class Recording:
         content = self.file.read(place[1])
         check = struct.unpack_from('<I', content, len(content) - 4)[0]
         if check and zlib.crc32(content[:-4]) != check:
-            raise LassoError(f'{self.path}: the attachment {name} is damaged: it has another check sum than it says')
+            raise LassoError(f'{self.path}: the attachment {name} is damaged: it has another checksum than it says')
         return content[place[2]:place[2] + place[3]]
 
     def messages(self, topic, start_s=-np.inf, end_s=np.inf):

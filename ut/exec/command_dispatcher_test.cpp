@@ -101,7 +101,7 @@ TEST(CommandDispatcher, AStartByUplinkIsTrackedFromTheNextBoundaryOn) {
   const PoseTelemetry pose = link.pose_of(link.run_frame());
   EXPECT_EQ(pose.scan_id, 1u) << "the scan of the frame behind the command";
   EXPECT_EQ(pose.valid, 1);
-  EXPECT_EQ(pose.start_way, static_cast<std::uint8_t>(InitialPoseSource::kUplink));
+  EXPECT_EQ(pose.start_source, static_cast<std::uint8_t>(InitialPoseSource::kUplink));
   EXPECT_LT(link.scene.error(pose).norm(), 1e-2);
 }
 
@@ -288,7 +288,7 @@ TEST(CommandDispatcher, EventsAreDisabledAndEnabledByCommand) {
   EXPECT_EQ(answers[1].data, (Stream{0x1B, 0xD1, 0xC0, 6, 0, 0, static_cast<std::uint8_t>(ServiceRefusal::kNoSuchEvent)}));
 }
 
-// The story of modes is told twice: in the pose packets, and as events.
+// The story of modes is reported twice: in the pose packets, and as events.
 TEST(CommandDispatcher, EveryTransitionIsAnEventWithItsReason) {
   VERIFIES("LASSO-MOD-172~1");
   Link link;

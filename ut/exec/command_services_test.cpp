@@ -26,11 +26,14 @@ class NumberedKeys final : public test::ImageSum {
     return true;
   }
   bool by_key_on_trial() const override { return by_trial_; }
-  void end_key_trial(bool kept) override {
+  bool end_key_trial(bool kept) override {
+    if (kept && store_full) return false;
     if (trial_ != 0 && kept) in_use = trial_;
     trial_ = 0;
+    return true;
   }
   std::uint32_t in_use = 0;
+  bool store_full = false;
 
  private:
   std::uint32_t trial_ = 0;
@@ -151,6 +154,22 @@ TEST_F(CommandServicesTest, ANewKeyTakesTheOldOnesPlaceOnceItIsConfirmed) {
   EXPECT_EQ(key_of(EventId::kKeyConfirmed), 3U);
   EXPECT_FALSE(scene_.told(EventId::kKeyGivenUp));
   EXPECT_EQ(keys_.in_use, 3U);
+}
+
+TEST_F(CommandServicesTest, AKeyThatARestartWouldLoseIsNotConfirmed) {
+  VERIFIES("LASSO-LNK-052~1");
+  begin(signed_image(test::first_image()));
+  EXPECT_EQ(change(3, 0), ServiceRefusal::kNone);
+  keys_.store_full = true;
+  EXPECT_EQ(confirm(3, 3), ServiceRefusal::kNotKept);
+  run(1);
+  EXPECT_FALSE(scene_.told(EventId::kKeyConfirmed));
+  EXPECT_EQ(keys_.in_use, 0U);
+  EXPECT_EQ(send(test::ping(count_++), 0), ServiceRefusal::kNone) << "both count";
+  keys_.store_full = false;
+  EXPECT_EQ(confirm(3, 3), ServiceRefusal::kNone);
+  run(1);
+  EXPECT_EQ(key_of(EventId::kKeyConfirmed), 3U);
 }
 
 TEST_F(CommandServicesTest, AKeyThatNobodyConfirmsIsGivenUp) {

@@ -239,7 +239,7 @@ bool contains(const std::vector<T>& values, T value) {
   return std::find(values.begin(), values.end(), value) != values.end();
 }
 
-// One event at least, if the scans are lost; more of them may come too soon to be told.
+// One event at least, if the scans are lost; more of them may come too soon to be reported.
 void expect_told(const BadScan& bad, const std::vector<L>& losses) {
   EXPECT_EQ(losses.empty(), bad.loss == L::kNone) << bad.name;
   for (const L loss : losses) EXPECT_EQ(loss, bad.loss) << bad.name;

@@ -68,7 +68,7 @@ TEST_F(ComponentCalibration, ACalibrationComesBackWithTheStoredImage) {
   EXPECT_EQ(scene_->sensor.serial, 31U);
 }
 
-// A flip in a record that is in use is told and repaired; until then the sensor has what was right.
+// A flip in a record that is in use is reported and repaired; until then the sensor has what was right.
 TEST_F(ComponentCalibration, ACalibrationThatDecaysIsNotBelieved) {
   VERIFIES("LASSO-LCS-007~2 LASSO-LCS-015~1");
   scene_->begin(calibrated_image({31}));

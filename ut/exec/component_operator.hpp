@@ -29,7 +29,7 @@ inline std::vector<Packet> packets_of(const Stream& stream) {
   return packets;
 }
 
-// The reason of a command's refusal, by what was told since it was sent. It asks for its completion.
+// The reason of a command's refusal, by what was reported since it was sent. It asks for its completion.
 inline ServiceRefusal answer_in(const std::vector<Packet>& packets) {
   for (const Packet& packet : packets) {
     if (packet.is(1, 8)) return static_cast<ServiceRefusal>(packet.data.back());
@@ -46,7 +46,7 @@ inline Stream telemetry_of(Component& component) {
   return bytes;
 }
 
-// The slots of one frame; the bytes that were told at its boundary.
+// The slots of one frame; the bytes that were sent at its boundary.
 inline Stream run_frame(Component& component) {
   do {
     component.run_slot(component.next_slot_us());
@@ -62,7 +62,7 @@ class Link {
   Component& component() { return *scene.component; }
   std::size_t send(const Stream& bytes) { return component().receive(view(bytes), component().next_slot_us()); }
   std::vector<Packet> answers() { return packets_of(telemetry_of(component())); }
-  // What it told but for poses, health and events.
+  // What it reported but for poses, health and events.
   std::vector<Packet> run_link_frame() {
     std::vector<Packet> others;
     for (const Packet& packet : run_frame()) {
@@ -72,7 +72,7 @@ class Link {
     }
     return others;
   }
-  // The slots of one frame; what was told at its boundary.
+  // The slots of one frame; what was reported at its boundary.
   std::vector<Packet> run_frame() { return packets_of(test::run_frame(component())); }
   PoseTelemetry pose_of(const std::vector<Packet>& packets) {
     PoseTelemetry pose;
@@ -92,7 +92,7 @@ inline StartCommand true_start(TimeUs t_us) {
   const BoxScene truth = default_scene();
   const Pose pose = truth.pose_at(t_us);
   StartCommand start;
-  start.way = static_cast<std::uint8_t>(InitialPoseSource::kUplink);
+  start.source = static_cast<std::uint8_t>(InitialPoseSource::kUplink);
   start.t_us = t_us;
   const double q[4] = {pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w()};
   for (std::size_t i = 0; i < 4; ++i) start.q_sensor_target[i] = q[i];

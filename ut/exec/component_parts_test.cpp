@@ -39,7 +39,7 @@ std::vector<PoseTelemetry> run(ComponentScene& scene, int frames) {
 }
 
 TEST(ComponentParts, ScansThePartsInTurnAndHandsOverBothWays) {
-  VERIFIES("LASSO-MOD-161~1 LASSO-MOD-162~1 LASSO-MOD-164~1 LASSO-MOD-171~1");
+  VERIFIES("LASSO-MOD-161~2 LASSO-MOD-162~1 LASSO-MOD-164~1 LASSO-MOD-171~1");
   ComponentScene scene(leaving_scene(), image_with_parts(test::two_halves()));
   scene.begin();
   ASSERT_EQ(scene.component->parts().size(), 2U);
@@ -48,7 +48,7 @@ TEST(ComponentParts, ScansThePartsInTurnAndHandsOverBothWays) {
   double wholes = 0;
   for (const PoseTelemetry& t : run(scene, 40)) {
     EXPECT_EQ(t.valid, 1) << t.scan_id << " " << to_string(static_cast<PoseReason>(t.reason));
-    EXPECT_EQ(t.odd_parts, 0U);
+    EXPECT_EQ(t.inconsistent_parts, 0U);
     EXPECT_EQ(t.parts_resting, 0);
     const Vec6 e = scene.error(t);
     EXPECT_LT(e.head<3>().norm(), 5e-3) << t.scan_id;
@@ -64,7 +64,7 @@ TEST(ComponentParts, ScansThePartsInTurnAndHandsOverBothWays) {
 }
 
 TEST(ComponentParts, APartWhoseScansOutlastThePeriodIsRefused) {
-  VERIFIES("LASSO-MOD-161~1");
+  VERIFIES("LASSO-EXE-008~2");
   MissionParameters p = parameters();
   p.duration_s = 2 * p.period_s;
   const test::BoxTables whole = test::make_box_tables(test::BoxModel{});
@@ -84,7 +84,7 @@ TEST(ComponentParts, AModeThatIsLeftWhereItIsEnteredIsRefused) {
 }
 
 TEST(ComponentParts, AScanOfAPartIsLaidOverThePart) {
-  VERIFIES("LASSO-MOD-161~1");
+  VERIFIES("LASSO-MOD-161~2");
   ComponentScene scene(leaving_scene(), image_with_parts(test::two_halves()));
   scene.begin();
   double whole = 0;
@@ -107,19 +107,19 @@ TEST(ComponentParts, APartThatIsNotWhereItsModelSaysIsDroppedAndTold) {
   parts[2].T_target_part.p += Vec3(0, 0.006, 0.004);
   ComponentScene scene(leaving_scene(), image_with_parts(parts));
   scene.begin();
-  std::uint32_t odd = 0;
+  std::uint32_t inconsistent = 0;
   for (const PoseTelemetry& t : run(scene, 22)) {
-    if (t.odd_part != 0) {
-      ++odd;
-      EXPECT_EQ(t.odd_part, 3);
+    if (t.inconsistent_part != 0) {
+      ++inconsistent;
+      EXPECT_EQ(t.inconsistent_part, 3);
       EXPECT_EQ(t.parts_resting, 4);
-      EXPECT_GT(t.odd_sigmas, 6);
+      EXPECT_GT(t.inconsistency_sigmas, 6);
     }
-    EXPECT_EQ(t.odd_parts, odd);
+    EXPECT_EQ(t.inconsistent_parts, inconsistent);
     if (t.valid == 0) continue;
     EXPECT_LT(scene.error(t).tail<3>().norm(), 3e-3) << t.scan_id;
   }
-  EXPECT_GE(odd, 1U);
+  EXPECT_GE(inconsistent, 1U);
 }
 
 // In both directions the track goes on without a gap, and stays where it was commanded whatever the range.

@@ -23,7 +23,7 @@ inline std::vector<Report> decode_all(ConstBytes stream) {
     Report report;
     const PacketFault fault = decode_pose(stream.subspan(at, size), report.header, report.pose);
     EXPECT_TRUE(fault == PacketFault::kNone || fault == PacketFault::kUnknown) << to_string(fault);
-    if (fault == PacketFault::kNone) reports.push_back(report);  // events tell of the same frame
+    if (fault == PacketFault::kNone) reports.push_back(report);  // events are of the same frame
     at += size;
   }
   return reports;

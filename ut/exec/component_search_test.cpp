@@ -1,4 +1,4 @@
-// The component's search for a target of which nothing is known, as telemetry tells it.
+// The component's search for a target of which nothing is known, as telemetry states it.
 #include <cmath>
 
 #include "ut/exec/mode_story.hpp"
@@ -36,7 +36,7 @@ TEST(ComponentSearch, TheTargetIsFoundWithoutAnyPriorAndTracked) {
                 {M::kSearching, E::kPoseValid, M::kStarting},
                 {M::kStarting, E::kPoseValid, M::kTracking}});
   EXPECT_EQ(story.last().mode, code(M::kTracking));
-  EXPECT_EQ(story.last().start_way, static_cast<std::uint8_t>(InitialPoseSource::kSearch));
+  EXPECT_EQ(story.last().start_source, static_cast<std::uint8_t>(InitialPoseSource::kSearch));
   EXPECT_LT(scene.error(story.last()).norm(), 1e-2);
   for (const PoseTelemetry& t : story.reports) EXPECT_TRUE(t.valid == 0 || scene.error(t).norm() < 1e-2);
 }
@@ -103,7 +103,7 @@ TEST(ComponentSearch, AStartThatASearchOfItsScanContradictsIsNeverTracked) {
                 {M::kBearing, E::kSearch, M::kSearching},
                 {M::kSearching, E::kPoseValid, M::kStarting},
                 {M::kStarting, E::kPoseValid, M::kTracking}});
-  EXPECT_EQ(story.last().refused_way, static_cast<std::uint8_t>(InitialPoseSource::kHandover));
+  EXPECT_EQ(story.last().refused_source, static_cast<std::uint8_t>(InitialPoseSource::kHandover));
   EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(StartRefusal::kContradicted));
   EXPECT_EQ(story.last().refused_starts, 1u);
   for (const PoseTelemetry& t : story.reports) EXPECT_TRUE(t.valid == 0 || scene.error(t).norm() < 5e-2);
@@ -127,7 +127,7 @@ TEST(ComponentSearch, ARightStartIsToldAsUncheckedAndThenTracked) {
   EXPECT_EQ(story.last().refused_starts, 0u);
 }
 
-// A mode that awaits a start and scans nothing is left for the bearing, if that is what the next way needs; otherwise it stays.
+// A mode that awaits a start and scans nothing is left for the bearing, if that is what the next source needs; otherwise it stays.
 TEST(ComponentSearch, AStartThatIsRefusedInLostGivesPlaceToTheSearch) {
   VERIFIES("LASSO-MOD-133~3");
   for (const bool ordered : {true, false}) {
@@ -150,7 +150,7 @@ TEST(ComponentSearch, AStartThatIsRefusedInLostGivesPlaceToTheSearch) {
     std::vector<ModeChange> expected{{M::kTracking, E::kExhausted, M::kLost}};
     if (ordered) expected.push_back({M::kLost, E::kSeek, M::kBearing});
     story.expect(expected);
-    EXPECT_EQ(story.last().refused_way, static_cast<std::uint8_t>(InitialPoseSource::kNavigation));
+    EXPECT_EQ(story.last().refused_source, static_cast<std::uint8_t>(InitialPoseSource::kNavigation));
     EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(StartRefusal::kTooOld));
   }
 }
@@ -180,7 +180,7 @@ TEST(ComponentSearch, ALostTargetIsLookedForNearItsPredictionThenSearched) {
   EXPECT_LT(scene.error(story.last()).norm(), 1e-2);
 }
 
-// A box looks alike from several sides: never a guess, and the candidates are told.
+// A box looks alike from several sides: never a guess, and the candidates are reported.
 TEST(ComponentSearch, AnAmbiguousTargetIsNeverTracked) {
   VERIFIES("LASSO-MOD-124~1 LASSO-MOD-120~1 LASSO-MOD-136~3");
   MissionParameters p = story_parameters();
@@ -249,7 +249,7 @@ TEST(ComponentSearch, APoseThatWasFoundTooLateIsRefusedByItsName) {
   story.run(scene, 12);
   EXPECT_EQ(story.last().mode, code(M::kSearching));
   EXPECT_GE(story.last().refused_starts, 1u);
-  EXPECT_EQ(story.last().refused_way, static_cast<std::uint8_t>(InitialPoseSource::kSearch));
+  EXPECT_EQ(story.last().refused_source, static_cast<std::uint8_t>(InitialPoseSource::kSearch));
   EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(StartRefusal::kTooOld));
 }
 

@@ -7,12 +7,12 @@
 namespace lasso {
 namespace {
 
+using test::id_of;
 using test::Packet;
-using test::row_of;
 
 class ComponentStore : public ::testing::Test {
  protected:
-  ComponentStore() : coast_(row_of("tracking.coast_frames")) { scene_.begin(image_); }
+  ComponentStore() : coast_(id_of("tracking.coast_frames")) { scene_.begin(image_); }
   Component& component() { return *scene_.component; }
   std::uint16_t next() { return count_++; }
 
@@ -63,7 +63,7 @@ class ComponentStore : public ::testing::Test {
 
   test::TestImage image_ = test::make_box_image(test::MemoryScene::parameters(), test::BoxModel{});
   test::MemoryScene scene_;
-  std::size_t coast_;
+  std::uint16_t coast_;
   std::uint16_t count_ = 0;
   std::vector<EventId> events_;
   std::vector<StoredEventTelemetry> stored_;

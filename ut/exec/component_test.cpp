@@ -4,6 +4,7 @@
 
 #include "fsw/sense/planner.hpp"
 #include "ut/exec/component_scene.hpp"
+#include "ut/link/pose_packet.hpp"
 
 namespace lasso {
 namespace {
@@ -282,7 +283,7 @@ TEST(Component, FullQueueCountsWhatItDrops) {
   }
   scene.run_frame();  // empties the queue
   const auto reports = scene.run_frame();
-  EXPECT_EQ(reports.at(0).pose.dropped_packets, 24u - kTelemetryQueueBytes / 835);
+  EXPECT_EQ(reports.at(0).pose.dropped_packets, 24u - kTelemetryQueueBytes / test::pose_packet_bytes());
 }
 
 TEST(Component, StaysWithinItsMemory) {

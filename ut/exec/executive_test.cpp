@@ -42,7 +42,7 @@ TEST(Executive, RefusesSlotsShorterThanItsClock) {
 }
 
 TEST(Executive, ItsPeriodSurvivesAFlip) {
-  VERIFIES("LASSO-HLT-014~1");
+  VERIFIES("LASSO-HLT-014~2");
   constexpr std::uint32_t kCopies[] = {200003, ~200003u, 200003};
   Executive executive;
   ASSERT_EQ(executive.begin(1000, 200003), Status::kOk);

@@ -181,7 +181,7 @@ TEST(HealthMonitor, AFilterWithoutNumbersIsLeftForABearing) {
   scene.begin();
   Story story;
   story.run(scene, 10);
-  scene.component->run_slot(scene.component->next_slot_us());  // a boundary: what is told now is what the next estimate begins from
+  scene.component->run_slot(scene.component->next_slot_us());  // a boundary: what is reported now is what the next estimate begins from
   std::vector<std::uint8_t> bytes(kTelemetryQueueBytes);
   bytes.resize(scene.component->take_telemetry(Bytes(bytes.data(), bytes.size())));
   const auto told = test::decode_all(ConstBytes(bytes.data(), bytes.size()));
@@ -340,7 +340,7 @@ TEST_F(TrackedComponent, ALateSlotIsNoJump) {
     story.run(scene, 20);
     scene.component->run_slot(scene.component->next_slot_us() + 30'000);
   }
-  EXPECT_EQ(scene.component->faults().confirmations(), confirmations) << "a processor that is late now and then is told once";
+  EXPECT_EQ(scene.component->faults().confirmations(), confirmations) << "a processor that is late now and then is reported once";
   EXPECT_FALSE(scene.component->faults().ever().has(Fault::kTimeJump));
 }
 

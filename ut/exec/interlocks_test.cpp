@@ -56,7 +56,7 @@ TEST(Interlocks, AFlippedBitOfTheLasersPermissionIsOutvotedToldAndRepaired) {
   link.send(test::plain_packet(CommandKind::kEnableLaser, 2));
   link.run_frame();
   std::uint32_t* const copies = copies_of_permission(*link.scene.component);
-  for (std::size_t bit = 0; bit < 96; bit += 13) {  // as many as a window of the event tells
+  for (std::size_t bit = 0; bit < 96; bit += 13) {  // as many as a window of the event reports
     copies[bit / 32] ^= 1u << bit % 32;
     EXPECT_TRUE(told(link.run_frame(), EventId::kFaultConfirmed)) << bit;
     EXPECT_TRUE(link.scene.component->faults().active().has(Fault::kLaserCorrupt));

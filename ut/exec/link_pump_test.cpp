@@ -207,7 +207,7 @@ TEST(LinkPump, AFloodOfBadPacketsCostsLittleAndHoldsNoCommandBack) {
       flood.answered, flood.commands, flood.latest_slots, each);
   EXPECT_EQ(quiet.answered, quiet.commands);
   EXPECT_EQ(flood.answered, flood.commands);
-  EXPECT_EQ(flood.inhibited, quiet.inhibited) << "what happens is told as without the flood";
+  EXPECT_EQ(flood.inhibited, quiet.inhibited) << "what happens is reported as without the flood";
   EXPECT_LE(flood.latest_slots, 2 * kSlotsPerFrame);
   EXPECT_LT(each, 0.15);
 }

@@ -1,4 +1,4 @@
-// The component's modes, starts and commands, as telemetry tells them.
+// The component's modes, starts and commands, as telemetry states them.
 #include <cmath>
 
 #include "ut/exec/mode_story.hpp"
@@ -74,7 +74,7 @@ TEST(ModeManager, NavigationIsTakenWhereAStartIsAwaited) {
   story.run(scene, 6);
   story.expect({{M::kStandby, E::kSeek, M::kBearing}, {M::kBearing, E::kStart, M::kStarting}, {M::kStarting, E::kPoseValid, M::kTracking}});
   EXPECT_EQ(story.last().mode, code(M::kTracking));
-  EXPECT_EQ(story.last().start_way, static_cast<std::uint8_t>(InitialPoseSource::kNavigation));
+  EXPECT_EQ(story.last().start_source, static_cast<std::uint8_t>(InitialPoseSource::kNavigation));
   EXPECT_LT(scene.error(story.last()).norm(), 1e-2);
 }
 
@@ -97,8 +97,8 @@ TEST(ModeManager, AWrongHandOverIsRefusedAndTheNextWayIsTried) {
     for (const PoseTelemetry& t : story.reports) EXPECT_TRUE(t.valid == 0 || scene.error(t).norm() < 1e-2);
     const PoseTelemetry& t = story.last();
     EXPECT_EQ(t.mode, code(M::kTracking));
-    EXPECT_EQ(t.start_way, static_cast<std::uint8_t>(InitialPoseSource::kNavigation));
-    EXPECT_EQ(t.refused_way, static_cast<std::uint8_t>(InitialPoseSource::kHandover));
+    EXPECT_EQ(t.start_source, static_cast<std::uint8_t>(InitialPoseSource::kNavigation));
+    EXPECT_EQ(t.refused_source, static_cast<std::uint8_t>(InitialPoseSource::kHandover));
     EXPECT_EQ(t.refusal, static_cast<std::uint8_t>(StartRefusal::kNotConfirmed));
     EXPECT_EQ(t.refused_starts, 1u);
   }
@@ -122,7 +122,7 @@ TEST(ModeManager, AWrongOfferCostsNoTrack) {
                 {M::kStarting, E::kStart, M::kStarting},
                 {M::kStarting, E::kFallBack, M::kReacquiring},
                 {M::kReacquiring, E::kPoseValid, M::kTracking}});
-  EXPECT_EQ(story.last().refused_way, static_cast<std::uint8_t>(InitialPoseSource::kHandover));
+  EXPECT_EQ(story.last().refused_source, static_cast<std::uint8_t>(InitialPoseSource::kHandover));
   EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(StartRefusal::kNotConfirmed));
   for (const PoseTelemetry& t : story.reports) EXPECT_TRUE(t.valid == 0 || scene.error(t).norm() < 1e-2);
 }
@@ -162,7 +162,7 @@ TEST(ModeManager, ALongEclipseEndsInABearingAndANewStart) {
   scene.sensor.hidden = false;
   story.run(scene, 4);
   EXPECT_EQ(story.last().bearing_reason, 0);
-  EXPECT_EQ(story.last().start_way, static_cast<std::uint8_t>(InitialPoseSource::kUplink)) << "the last track's";
+  EXPECT_EQ(story.last().start_source, static_cast<std::uint8_t>(InitialPoseSource::kUplink)) << "the last track's";
   const TimeUs now_us = scene.component->next_slot_us();
   Vec6 far = Vec6::Zero();
   far[5] = 14;
@@ -269,7 +269,7 @@ TEST(ModeManager, WrongOffersAreRefusedCountedAndTold) {
   story.run(scene, 4);
   EXPECT_EQ(story.last().mode, code(M::kBearing)) << "no offer was kept";
   EXPECT_EQ(story.last().refused_starts, 3u);
-  EXPECT_EQ(story.last().refused_way, static_cast<std::uint8_t>(InitialPoseSource::kUplink));
+  EXPECT_EQ(story.last().refused_source, static_cast<std::uint8_t>(InitialPoseSource::kUplink));
   EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(StartRefusal::kNotFinite));
 }
 
@@ -285,9 +285,9 @@ TEST(ModeManager, WhatHasGrownOldIsRefusedWhenItsTurnComes) {
   ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kApriori, offer_at(scene, 7 * 200000)), StartRefusal::kNone);
   ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);
   story.run(scene, 5);
-  EXPECT_EQ(story.last().mode, code(M::kTracking)) << "by the next way in the same frame";
-  EXPECT_EQ(story.last().start_way, static_cast<std::uint8_t>(InitialPoseSource::kApriori));
-  EXPECT_EQ(story.last().refused_way, static_cast<std::uint8_t>(InitialPoseSource::kNavigation));
+  EXPECT_EQ(story.last().mode, code(M::kTracking)) << "from the next source in the same frame";
+  EXPECT_EQ(story.last().start_source, static_cast<std::uint8_t>(InitialPoseSource::kApriori));
+  EXPECT_EQ(story.last().refused_source, static_cast<std::uint8_t>(InitialPoseSource::kNavigation));
   EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(StartRefusal::kTooOld));
 }
 
@@ -310,9 +310,9 @@ TEST(ModeManager, AMissionsOwnStartIsRefusedByItsReasonAndTheNextWayIsTried) {
     story.expect(
         {{M::kStandby, E::kSeek, M::kBearing}, {M::kBearing, E::kStart, M::kStarting}, {M::kStarting, E::kPoseValid, M::kTracking}});
     EXPECT_EQ(story.last().mode, code(M::kTracking));
-    EXPECT_EQ(story.last().start_way, static_cast<std::uint8_t>(InitialPoseSource::kNavigation));
+    EXPECT_EQ(story.last().start_source, static_cast<std::uint8_t>(InitialPoseSource::kNavigation));
     EXPECT_EQ(story.last().refused_starts, 1u);
-    EXPECT_EQ(story.last().refused_way, static_cast<std::uint8_t>(InitialPoseSource::kApriori));
+    EXPECT_EQ(story.last().refused_source, static_cast<std::uint8_t>(InitialPoseSource::kApriori));
     EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(refusal));
   }
 }
@@ -327,14 +327,14 @@ TEST(ModeManager, ACommandTakesThePlaceOfTheOneBefore) {
   ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kUplink, offer_at(scene, 0)), StartRefusal::kNone);
   Story story;
   story.run(scene, 4);
-  EXPECT_EQ(story.last().start_way, static_cast<std::uint8_t>(InitialPoseSource::kUplink));
+  EXPECT_EQ(story.last().start_source, static_cast<std::uint8_t>(InitialPoseSource::kUplink));
   EXPECT_EQ(story.last().mode, code(M::kTracking));
   ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);
   story.run(scene, 4);
   EXPECT_EQ(story.last().mode, code(M::kBearing)) << "the hand-over is not left to be tried";
 }
 
-// A command in each frame leaves no scan to be reported; the changes are told all the same, in order, by packets of their own.
+// A command in each frame leaves no scan to be reported; the changes are reported all the same, in order, by packets of their own.
 TEST(ModeManager, NoChangeOfTheModeGoesUntold) {
   VERIFIES("LASSO-MOD-137~1");
   ComponentScene scene(story_parameters());

@@ -1,4 +1,4 @@
-// The changes of the mode in a flight, as telemetry tells them.
+// The changes of the mode in a flight, as telemetry states them.
 #pragma once
 
 #include "ut/exec/component_scene.hpp"

@@ -24,7 +24,7 @@ KnownPose known_off(const KnownPose& truth, const StateError& error) {
   return known;
 }
 
-// Of the same, told of the named frames, by products of poses and by the derivative of the position.
+// Of the same, stated of the named frames, by products of poses and by the derivative of the position.
 StateError difference_in(const NamedFrame& frame, const KnownPose& estimate, const KnownPose& truth) {
   const auto pose_in = [&](const KnownPose& of) { return frame.T_in_sensor * of.pose * frame.T_target_of; };
   const auto velocity_in = [&](const KnownPose& of) {

@@ -8,10 +8,10 @@
 namespace lasso {
 namespace {
 
+using test::id_of;
 using test::Link;
 using test::Packet;
 using test::refusal_of;
-using test::row_of;
 using test::told;
 
 ParameterTelemetry parameter_of(const std::vector<Packet>& packets) {
@@ -33,18 +33,18 @@ std::string modes(Link& link, int frames) {
 TEST(ParameterService, AreReportedSetAndReverted) {
   VERIFIES("LASSO-IMG-018~1 LASSO-LNK-022~1");
   Link link;
-  const std::size_t row = row_of("tracking.inlier_share_min");
-  link.send(test::report_parameter(row, 0));
+  const std::uint16_t id = id_of("tracking.inlier_share_min");
+  link.send(test::report_parameter(id, 0));
   ParameterTelemetry parameter = parameter_of(link.answers());
-  EXPECT_EQ(parameter.parameter, row);
+  EXPECT_EQ(parameter.parameter, id);
   EXPECT_EQ(parameter.value, link.component().mission().parameters.inlier_share_min);
   EXPECT_EQ(parameter.value, parameter.image_value);
   EXPECT_EQ(parameter.changed, 0);
   const double before = parameter.value;
-  link.send(test::set_parameter(row, 0.75, 1));
+  link.send(test::set_parameter(id, 0.75, 1));
   EXPECT_EQ(refusal_of(link.answers()), 0);
   EXPECT_EQ(link.component().mission().parameters.inlier_share_min, before) << "from the next boundary on";
-  link.send(test::report_parameter(row, 2));
+  link.send(test::report_parameter(id, 2));
   parameter = parameter_of(link.answers());
   EXPECT_EQ(parameter.value, 0.75);
   EXPECT_EQ(parameter.image_value, before);
@@ -61,7 +61,7 @@ TEST(ParameterService, AreReportedSetAndReverted) {
 TEST(ParameterService, AChangeActsAtTheNextBoundary) {
   VERIFIES("LASSO-LNK-022~1 LASSO-IMG-018~1");
   Link as_loaded, changed;
-  changed.send(test::set_parameter(row_of("tracking.coast_frames"), 2, 0));
+  changed.send(test::set_parameter(id_of("tracking.coast_frames"), 2, 0));
   for (Link* link : {&as_loaded, &changed}) {
     for (int frame = 0; frame < 8; ++frame) link->run_frame();
     link->scene.sensor.hidden = true;
@@ -76,19 +76,19 @@ TEST(ParameterService, WhatIsRefusedSaysWhyAndChangesNothing) {
   Link link;
   const MissionParameters before = link.component().mission().parameters;
   const struct {
-    std::size_t row;
+    std::uint16_t id;
     double value;
     ServiceRefusal refusal;
-  } cases[] = {{parameter_rows().size(), 1, ServiceRefusal::kNoSuchParameter},
-               {row_of("filter.period_s"), 0.2, ServiceRefusal::kFixedParameter},
-               {row_of("tracking.coast_frames"), -1, ServiceRefusal::kOutOfLimits},
-               {row_of("short_range.enter_m"), 5, ServiceRefusal::kInconsistent}};
+  } cases[] = {{kNextParameterId, 1, ServiceRefusal::kNoSuchParameter},
+               {id_of("filter.period_s"), 0.2, ServiceRefusal::kFixedParameter},
+               {id_of("tracking.coast_frames"), -1, ServiceRefusal::kOutOfLimits},
+               {id_of("short_range.enter_m"), 5, ServiceRefusal::kInconsistent}};
   std::uint16_t count = 0;
   for (const auto& each : cases) {
-    link.send(test::set_parameter(each.row, each.value, count++));
-    EXPECT_EQ(refusal_of(link.answers()), static_cast<std::uint8_t>(each.refusal)) << each.row;
+    link.send(test::set_parameter(each.id, each.value, count++));
+    EXPECT_EQ(refusal_of(link.answers()), static_cast<std::uint8_t>(each.refusal)) << each.id;
   }
-  link.send(test::report_parameter(parameter_rows().size(), count++));
+  link.send(test::report_parameter(kNextParameterId, count++));
   EXPECT_EQ(refusal_of(link.answers()), static_cast<std::uint8_t>(ServiceRefusal::kNoSuchParameter));
   link.run_frame();
   const MissionParameters& after = link.component().mission().parameters;
@@ -108,9 +108,9 @@ std::vector<std::uint8_t*> places_of(Component& component, double value) {
 TEST(ParameterService, AFlippedCopyIsRepairedAndTwoAreTold) {
   VERIFIES("LASSO-IMG-018~1");
   Link link;
-  const std::size_t row = row_of("tracking.inlier_share_min");
+  const std::uint16_t id = id_of("tracking.inlier_share_min");
   const double before = link.component().mission().parameters.inlier_share_min;
-  link.send(test::set_parameter(row, 0.73125, 0));
+  link.send(test::set_parameter(id, 0.73125, 0));
   const std::vector<std::uint8_t*> places = places_of(link.component(), 0.73125);
   ASSERT_EQ(places.size(), 2u);
   *places[0] ^= 4U;
@@ -118,7 +118,7 @@ TEST(ParameterService, AFlippedCopyIsRepairedAndTwoAreTold) {
   EXPECT_EQ(link.component().mission().parameters.inlier_share_min, 0.73125);
   EXPECT_TRUE(link.component().faults().active().has(Fault::kParametersCorrupt));
   *places[0] ^= 4U;
-  link.send(test::set_parameter(row_of("tracking.coast_frames"), 7, 1));
+  link.send(test::set_parameter(id_of("tracking.coast_frames"), 7, 1));
   link.run_frame();
   EXPECT_EQ(link.component().mission().parameters.inlier_share_min, 0.73125) << "a wrong copy is not made right by what is set next";
   *places[0] ^= 4U;
@@ -135,10 +135,10 @@ TEST(ParameterService, AChangeWaitsForALateEstimate) {
   Component& component = link.component();
   for (int frame = 0; frame < 3; ++frame) link.run_frame();
   const double before = component.mission().parameters.coast_frames;
-  link.send(test::set_parameter(row_of("tracking.coast_frames"), 77, 0));
+  link.send(test::set_parameter(id_of("tracking.coast_frames"), 77, 0));
   component.run_slot(component.next_slot_us());  // the boundary: applied, as nothing runs
   EXPECT_EQ(component.mission().parameters.coast_frames, 77);
-  link.send(test::set_parameter(row_of("tracking.coast_frames"), 78, 1));
+  link.send(test::set_parameter(id_of("tracking.coast_frames"), 78, 1));
   do {
     component.run_slot(component.next_slot_us());  // nobody estimates
   } while (!component.next_slot_is_boundary());

@@ -70,7 +70,7 @@ TEST(PosePublisher, PosesBetweenNamedFramesAreSentWhereTheImageNamesThem) {
   std::uint8_t before[8];  // of the first quaternion's x
   std::copy_n(decayed, 8, before);
   std::fill_n(decayed, 8, std::uint8_t{0x7F});
-  ASSERT_EQ(named(scene).size(), 1U) << "what has decayed is not told";
+  ASSERT_EQ(named(scene).size(), 1U) << "what has decayed is not reported";
   std::copy_n(before, 8, decayed);
   send(CommandKind::kDisableStructure, 0);
   EXPECT_TRUE(named(scene).empty());
@@ -78,7 +78,7 @@ TEST(PosePublisher, PosesBetweenNamedFramesAreSentWhereTheImageNamesThem) {
   EXPECT_EQ(named(scene).size(), 2U);
 }
 
-// What is told of its diagonal is what the packet pose of the same frame tells as sigmas.
+// What is reported of its diagonal is what the packet pose of the same frame states as sigmas.
 TEST(PosePublisher, TheFiltersCovarianceIsSentOnRequest) {
   VERIFIES("LASSO-LNK-039~1");
   Link link;
@@ -135,7 +135,7 @@ TEST(PosePublisher, PosesThatAreNotSentCountAndTheirChangesAreEvents) {
   link.send(test::of_structure(CommandKind::kDisableStructure, kPoseStructureId, 0));
   std::size_t changes = 0;
   std::uint16_t count = 1;
-  for (int frame = 0; frame < 40; ++frame) {  // more changes than a packet could tell
+  for (int frame = 0; frame < 40; ++frame) {  // more changes than a packet could hold
     const TrackingMode mode = frame % 2 == 0 ? TrackingMode::kBearing : TrackingMode::kStandby;
     link.send(test::set_mode(static_cast<std::uint8_t>(mode), count++));
     const std::vector<Packet> packets = link.run_frame();

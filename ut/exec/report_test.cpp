@@ -163,8 +163,8 @@ TEST(Report, CarriesTheParts) {
   step.after.mode = TrackingMode::kShortRange;
   const PoseTelemetry t = make_report(Mission{}, step, ScanPlan{}, 0);
   EXPECT_EQ(t.part, 3);
-  EXPECT_EQ(t.odd_part, 5);
-  EXPECT_EQ(t.odd_sigmas, 7.5F);
+  EXPECT_EQ(t.inconsistent_part, 5);
+  EXPECT_EQ(t.inconsistency_sigmas, 7.5F);
   EXPECT_EQ(t.parts_resting, 0b10010);
 }
 
@@ -172,7 +172,7 @@ TEST(Report, CarriesTheBearingAndTheTracksStart) {
   VERIFIES("LASSO-EXE-006~1 LASSO-MOD-101~1");
   TrackStep step = numbered_step();
   step.after.held = true;
-  step.after.way = InitialPoseSource::kNavigation;
+  step.after.source = InitialPoseSource::kNavigation;
   Bearing& b = step.bearing;
   b.reason = BearingReason::kValid;
   b.t_us = 1900000;
@@ -185,7 +185,7 @@ TEST(Report, CarriesTheBearingAndTheTracksStart) {
   }
   const PoseTelemetry t = make_report(Mission{}, step, ScanPlan{}, 0);
   EXPECT_EQ(t.held, 1);
-  EXPECT_EQ(t.start_way, 2);
+  EXPECT_EQ(t.start_source, 2);
   EXPECT_EQ(t.bearing_reason, 0);
   EXPECT_EQ(t.t_bearing_us, 1900000);
   EXPECT_EQ(t.bearing_returns, 31);
@@ -224,9 +224,9 @@ TEST(Report, CarriesTheSearchAndItsFirstCandidates) {
   EXPECT_EQ(t.search_disagreement, 0.125F);
   EXPECT_EQ(t.search_work, 3000000u);
   ASSERT_EQ(t.search_candidates, kTelemetryCandidates);
-  EXPECT_EQ(t.candidate_q[4 * 3 + 1], -0.5F);
-  EXPECT_EQ(t.candidate_q[4 * 3 + 3], 0.5F);
-  EXPECT_EQ(t.candidate_p_m[3 * 2 + 1], 12.0F);
+  EXPECT_EQ(t.candidate_q_sensor_target[4 * 3 + 1], -0.5F);
+  EXPECT_EQ(t.candidate_q_sensor_target[4 * 3 + 3], 0.5F);
+  EXPECT_EQ(t.candidate_p_sensor_target_m[3 * 2 + 1], 12.0F);
   EXPECT_EQ(numbered_report().search_candidates, 0);
 }
 
@@ -271,7 +271,7 @@ TEST(Report, DictionaryNamesTheEnumerationsAsTheCodeDoes) {
   expect_names(kFaultReaction, FaultReaction::kMakeSafe);
   expect_names(kTrackingMode, TrackingMode::kSafe);
   expect_names(kModeEvent, ModeEvent::kFallBack);
-  expect_names(kStartWay, InitialPoseSource::kSearch);
+  expect_names(kStartSource, InitialPoseSource::kSearch);
   expect_names(kStartRefusal, StartRefusal::kContradicted);
   expect_names(kModeRefusal, ModeRefusal::kNoPrediction);
   expect_names(kBearingReason, BearingReason::kJump);
@@ -296,8 +296,8 @@ TEST(Report, DictionaryHasTheEnumerationOfEachItem) {
                                                                  {"change_from", &kTrackingMode},
                                                                  {"change_event", &kModeEvent},
                                                                  {"change_to", &kTrackingMode},
-                                                                 {"start_way", &kStartWay},
-                                                                 {"refused_way", &kStartWay},
+                                                                 {"start_source", &kStartSource},
+                                                                 {"refused_source", &kStartSource},
                                                                  {"refusal", &kStartRefusal},
                                                                  {"bearing_reason", &kBearingReason},
                                                                  {"search_outcome", &kSearchOutcome},

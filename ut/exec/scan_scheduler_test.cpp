@@ -73,7 +73,7 @@ class ScanSchedulerTest : public ::testing::Test {
     return reports;
   }
 
-  // The sensors that the packets of these frames tell of.
+  // The sensors that the packets of these frames state.
   std::vector<std::uint8_t> sensors_told(int frames) {
     std::vector<std::uint8_t> told;
     for (int i = 0; i < frames; ++i) {
@@ -84,7 +84,7 @@ class ScanSchedulerTest : public ::testing::Test {
     return told;
   }
 
-  // What is told of sensors' failing, in order: the event, and the sensor.
+  // What is reported of sensors' failing, in order: the event, and the sensor.
   std::vector<std::pair<EventId, int>> failures_told(int frames) {
     std::vector<std::pair<EventId, int>> failures;
     for (int i = 0; i < frames; ++i) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "ut/exec/component_operator.hpp"
+#include "ut/link/pose_packet.hpp"
 
 namespace lasso {
 namespace {
@@ -50,7 +51,7 @@ TEST(Telemetry, TheWholeStreamFits64KilobitsASecond) {
     link.send(test::set_mode(99, frame));
     for (const Packet& packet : link.run_frame()) bytes += packet.data.size() + 22;
   }
-  EXPECT_GT(bytes, 48U * 835);
+  EXPECT_GT(bytes, 48 * test::pose_packet_bytes());
   EXPECT_LE(bytes * 8, 64000U * 10) << "50 frames of 0.2 s";
   link.send(test::set_period(kPoseStructureId, 5, 100));
   for (int frame = 0; frame < 50; ++frame) {

@@ -116,7 +116,6 @@ TEST(Normalized, UnitLengthForEverySize) {
 }
 
 TEST(Normalized, ZeroIsIdentityAndNanStaysNan) {
-  VERIFIES("LASSO-GEO-020~1");
   EXPECT_EQ(normalized(Quat(0, 0, 0, 0)).coeffs(), Quat(1, 0, 0, 0).coeffs());
   EXPECT_EQ(normalized(Quat(0, -0.0, 0, 0)).coeffs(), Quat(1, 0, 0, 0).coeffs());
   EXPECT_TRUE(std::isnan(normalized(Quat(kNoNumber, 0, 0, 0)).x()));

@@ -52,24 +52,53 @@ std::uint32_t* copies_of_permission(Driver& driver, std::uint32_t permitted) {
   return found;
 }
 
-TEST_F(DarkDriver, AFlippedBitPermitsNothingAndForbidsNothing) {
+TEST_F(DarkDriver, AFlippedBitPermitsNothing) {
   VERIFIES("LASSO-HLT-012~1");
   std::uint32_t* const copies = copies_of_permission(driver, 0);
-  for (std::size_t word = 0; word < 3; ++word) {
-    copies[word] ^= 1u;
-    EXPECT_EQ(driver.start(small_plan(), kStartUs), Status::kMissing) << word;
-    EXPECT_EQ(copies[word], word == 1 ? ~0u : 0u) << "repaired";
+  heard();
+  for (std::uint32_t bit = 0; bit < 96; ++bit) {
+    copies[bit / 32] ^= 1u << bit % 32;
+    poll();
+    EXPECT_EQ(heard(), kInhibit) << bit;
+    EXPECT_EQ(driver.start(small_plan(), kStartUs), Status::kMissing) << bit;
+    EXPECT_EQ(heard(), kInhibit) << bit;
+    EXPECT_TRUE(copies[0] == 0 && copies[1] == ~0u && copies[2] == 0) << "repaired: " << bit;
   }
+}
+
+TEST_F(DarkDriver, AFlippedBitForbidsNothing) {
+  VERIFIES("LASSO-HLT-012~1");
+  std::uint32_t* const copies = copies_of_permission(driver, 0);
   driver.permit_laser(true);
-  for (std::size_t word = 0; word < 3; ++word) {
-    copies[word] ^= 1u;
-    EXPECT_EQ(driver.start(small_plan(), kStartUs), Status::kOk) << word;
-    EXPECT_EQ(copies[word], word == 1 ? ~1u : 1u) << "repaired";
+  ASSERT_EQ(copies[0], 1u) << "this is the permission";
+  heard();
+  for (std::uint32_t bit = 0; bit < 96; ++bit) {
+    copies[bit / 32] ^= 1u << bit % 32;
+    poll();
+    EXPECT_EQ(heard(), kNone) << bit;
+    EXPECT_EQ(driver.start(small_plan(), kStartUs), Status::kOk) << bit;
+    EXPECT_EQ(heard(), kLight) << bit;
+    EXPECT_TRUE(copies[0] == 1 && copies[1] == ~1u && copies[2] == 1) << "repaired: " << bit;
     driver.abort();
   }
-  copies[0] = 7;
-  copies[1] = 7;
-  EXPECT_EQ(driver.start(small_plan(), kStartUs), Status::kMissing) << "no two agree";
+}
+
+TEST_F(DarkDriver, WhatNoTwoCopiesSayIsNoPermission) {
+  VERIFIES("LASSO-HLT-012~1");
+  std::uint32_t* const copies = copies_of_permission(driver, 0);
+  driver.permit_laser(true);
+  heard();
+  constexpr std::uint32_t kDiffering[][3] = {{5, 7, 9}, {7, 0, 1}, {0, 1, 3}, {1, 3, 0}};
+  for (const auto& said : kDiffering) {
+    copies[0] = said[0];
+    copies[1] = ~said[1];
+    copies[2] = said[2];
+    poll();
+    EXPECT_EQ(heard(), kInhibit);
+    EXPECT_EQ(driver.start(small_plan(), kStartUs), Status::kMissing);
+    EXPECT_EQ(heard(), kInhibit);
+    EXPECT_TRUE(copies[0] == 0 && copies[1] == ~0u && copies[2] == 0) << "from now on there is none";
+  }
 }
 
 TEST_F(DarkDriver, InhibitsWithEachCallUntilTheCameraConfirmsIt) {

@@ -35,6 +35,31 @@ TEST_F(LcsDriver, BringsAScanFromPlanToPoints) {
   EXPECT_EQ(driver.poll(kStartUs + 46'000, Span<RangeSample>(out)).status, Status::kNoData);
 }
 
+// By its whole start, byte for byte: what a head is does not show on the line to it.
+TEST(LcsDriverOfEachHead, SpeaksToItAsToALaserCamera) {
+  VERIFIES("LASSO-LCS-016~2");
+  EchoCalibration echo;
+  echo.serial = kSerial;
+  const auto start_of = [](const Optics& optics) {
+    Line line;
+    Driver driver(line, optics);
+    Sensor& sensor = driver;  // the interface of every sensor
+    sensor.permit_laser(true);
+    AimedRays aimed;
+    for (int i = 0; i < 9; ++i) EXPECT_TRUE(aimed.push_back({0.01F * static_cast<float>(i), -0.02F}));
+    ScanPlan plan = small_plan();
+    plan.aimed = aimed.span();
+    EXPECT_EQ(sensor.start(plan, kStartUs), Status::kOk);
+    std::vector<std::uint8_t> bytes(kLineBytes);
+    bytes.resize(line.to_camera.read(Bytes(bytes.data(), bytes.size())));
+    return bytes;
+  };
+  const std::vector<std::uint8_t> camera = start_of(Optics(calibration()));
+  EXPECT_GT(camera.size(), 100U);
+  EXPECT_EQ(start_of(Optics(echo)), camera) << "a LIDAR";
+  EXPECT_EQ(start_of(Optics(calibration(), echo)), camera) << "a TriDAR";
+}
+
 TEST_F(LcsDriver, TheFirstSampleWaitsForNothingButALineThatIsFull) {
   VERIFIES("LASSO-LCS-003~1");
   line.bits_per_s = 1e6;

@@ -61,7 +61,7 @@ bool same(const Sent& a, const Sent& b) { return a.type == b.type && a.sequence 
 TEST(LcsFrame, HasTheDocumentedBytes) {
   VERIFIES("LASSO-LCS-002~1");
   const std::uint8_t payload[] = {0x01, 0xFE};
-  // The check sum of 02 91 07 01 FE by another program (binascii.crc_hqx with 0xFFFF).
+  // The checksum of 02 91 07 01 FE by another program (binascii.crc_hqx with 0xFFFF).
   EXPECT_EQ(octets(encode_frame(0x91, 7, ConstBytes(payload))), (Octets{0x5A, 0xC3, 0x02, 0x91, 0x07, 0x01, 0xFE, 0x5D, 0xD4}));
   EXPECT_EQ(encode_frame(0, 0, ConstBytes()).size, kFrameOverhead);
   EXPECT_EQ(kMaxFrame, 64U);

@@ -40,7 +40,7 @@ RawSample echo() {
 }
 
 TEST(Optics, EachHeadMeasuresInItsWay) {
-  VERIFIES("LASSO-LCS-016~1");
+  VERIFIES("LASSO-LCS-016~2");
   RangeSample sample, straight;
   Optics camera{near()}, lidar{far()}, tridar{near(), far()};
   EXPECT_EQ(camera.device(), Device::kLaserCamera);
@@ -111,7 +111,7 @@ TEST(Optics, AreRefusedForTheReasonOfTheirCalibration) {
 }
 
 TEST(Optics, OfATridarAreOfOneHead) {
-  VERIFIES("LASSO-LCS-015~1 LASSO-LCS-016~1");
+  VERIFIES("LASSO-LCS-015~1 LASSO-LCS-016~2");
   const auto verdict = [](auto change) {
     EchoCalibration other = far();
     change(other);

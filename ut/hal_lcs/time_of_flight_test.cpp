@@ -34,7 +34,7 @@ RawSample measured(const EchoCalibration& c, double temperature_degC, double x, 
 }
 
 TEST(TimeOfFlight, FindsThePointThatWasMeasured) {
-  VERIFIES("LASSO-LCS-016~1");
+  VERIFIES("LASSO-LCS-016~2");
   const EchoCalibration c = slow_lidar();
   test::Generator chance(3);
   for (int round = 0; round < 300; ++round) {

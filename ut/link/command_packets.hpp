@@ -100,13 +100,11 @@ inline Stream select_calibration(const CalibrationCommand& choice, std::uint16_t
 inline Stream of_key(CommandKind kind, std::uint32_t number, std::uint16_t count = 0) {
   return command_packet(kind, command_rows::kKey, KeyCommand{number}, count);
 }
-inline Stream set_parameter(std::size_t parameter, double value, std::uint16_t count = 0) {
-  return command_packet(CommandKind::kSetParameter, command_rows::kSetParameter,
-                        ParameterCommand{static_cast<std::uint16_t>(parameter), value}, count);
+inline Stream set_parameter(std::uint16_t id, double value, std::uint16_t count = 0) {
+  return command_packet(CommandKind::kSetParameter, command_rows::kSetParameter, ParameterCommand{id, value}, count);
 }
-inline Stream report_parameter(std::size_t parameter, std::uint16_t count = 0) {
-  return command_packet(CommandKind::kReportParameter, command_rows::kParameter, ParameterCommand{static_cast<std::uint16_t>(parameter), 0},
-                        count);
+inline Stream report_parameter(std::uint16_t id, std::uint16_t count = 0) {
+  return command_packet(CommandKind::kReportParameter, command_rows::kParameter, ParameterCommand{id, 0}, count);
 }
 inline Stream correlate_time(TimeUs component_us, TimeUs spacecraft_us, std::uint16_t count = 0) {
   return command_packet(CommandKind::kCorrelateTime, command_rows::kTime, TimeCommand{component_us, spacecraft_us}, count);

@@ -82,12 +82,12 @@ TEST(Commands, ArriveAsTheyWereSent) {
   EXPECT_EQ(command.kind, CommandKind::kHold);
   EXPECT_EQ(command.hold.held, 1);
   StartCommand start;
-  start.way = 4;
+  start.source = 4;
   start.t_us = 123456789;
   start.covariance[20] = 0.5F;
   ASSERT_EQ(decode(test::offer_start(start), command), PacketFault::kNone);
   EXPECT_EQ(command.kind, CommandKind::kStart);
-  EXPECT_EQ(command.start.way, 4);
+  EXPECT_EQ(command.start.source, 4);
   EXPECT_EQ(command.start.t_us, 123456789);
   EXPECT_EQ(command.start.covariance[20], 0.5F);
   ASSERT_EQ(decode(test::disable_event(3), command), PacketFault::kNone);
@@ -232,9 +232,9 @@ TEST(Commands, ArgumentsOutOfRangeAreRefused) {
   EXPECT_EQ(fault_of(test::set_mode(10)), PacketFault::kBadArgument);
   EXPECT_EQ(fault_of(test::set_hold(2)), PacketFault::kBadArgument);
   StartCommand start;
-  start.way = 6;
+  start.source = 6;
   EXPECT_EQ(fault_of(test::offer_start(start)), PacketFault::kBadArgument);
-  start.way = 5;
+  start.source = 5;
   start.v_mps[1] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(fault_of(test::offer_start(start)), PacketFault::kBadArgument);
 }

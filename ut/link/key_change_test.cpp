@@ -18,12 +18,14 @@ class Keys final : public Authenticator {
     return true;
   }
   bool by_key_on_trial() const override { return by_trial; }
-  void end_key_trial(bool kept) override {
+  bool end_key_trial(bool kept) override {
+    if (kept && full) return false;
     if (kept) in_use = trial;
     trial = 0;
+    return true;
   }
   std::uint32_t in_use = 0, trial = 0;
-  bool by_trial = false;
+  bool by_trial = false, full = false;
 };
 
 class KeyChangeTest : public ::testing::Test {
@@ -60,6 +62,25 @@ TEST_F(KeyChangeTest, AKeyThatNobodyConfirmsIsGivenUpInTime) {
   EXPECT_EQ(change_.confirm(7), ServiceRefusal::kNoKeyOnTrial);
   EXPECT_FALSE(change_.pass_boundary());
   EXPECT_EQ(change_.begin(7), ServiceRefusal::kNone) << "it may be tried again";
+}
+
+TEST_F(KeyChangeTest, AKeyThatCannotBeStoredIsNotConfirmedAndStaysOnTrial) {
+  VERIFIES("LASSO-LNK-052~1");
+  EXPECT_EQ(change_.begin(1), ServiceRefusal::kNone);
+  keys_.by_trial = keys_.full = true;
+  EXPECT_EQ(change_.confirm(1), ServiceRefusal::kNotKept);
+  EXPECT_EQ(keys_.in_use, 0U);
+  EXPECT_EQ(keys_.trial, 1U);
+  keys_.full = false;
+  EXPECT_FALSE(change_.pass_boundary());
+  EXPECT_EQ(change_.confirm(1), ServiceRefusal::kNone) << "once it can be stored";
+  EXPECT_EQ(keys_.in_use, 1U);
+  EXPECT_EQ(change_.begin(2), ServiceRefusal::kNone);
+  keys_.full = true;
+  EXPECT_EQ(change_.confirm(2), ServiceRefusal::kNotKept);
+  for (std::uint32_t i = 1; i < kKeyTrialFrames; ++i) ASSERT_FALSE(change_.pass_boundary()) << i;
+  EXPECT_TRUE(change_.pass_boundary()) << "the trial is not longer for it";
+  EXPECT_EQ(keys_.trial, 0U);
 }
 
 // As after a flipped bit.

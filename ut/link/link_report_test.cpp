@@ -175,7 +175,8 @@ TEST(LinkReport, RefusalsHaveTheNumbersThatTheDictionaryNames) {
                                                           {ServiceRefusal::kNoSuchKey, "no_such_key"},
                                                           {ServiceRefusal::kKeyOnTrial, "key_on_trial"},
                                                           {ServiceRefusal::kNoKeyOnTrial, "no_key_on_trial"},
-                                                          {ServiceRefusal::kNotByNewKey, "not_by_new_key"}};
+                                                          {ServiceRefusal::kNotByNewKey, "not_by_new_key"},
+                                                          {ServiceRefusal::kNotKept, "not_kept"}};
   ASSERT_EQ(kServiceRefusal.choices.size(), std::size(names));
   for (const auto& [refusal, name] : names)
     EXPECT_STREQ(Span<const Choice>(kServiceRefusal.choices)[static_cast<std::size_t>(refusal)].name, name);

@@ -131,7 +131,7 @@ TEST(PacketFinder, LooksForOneKindOfPacket) {
   EXPECT_EQ(find(stream, 1000, PacketType::kCommand).packets, std::vector<Stream>{command(1, 1)});
 }
 
-TEST(PacketFinder, ALengthTooSmallForACheckSumIsNoPacket) {
+TEST(PacketFinder, ALengthTooSmallForAChecksumIsNoPacket) {
   VERIFIES("LASSO-LNK-028~1");
   // A header that states 7 bytes, of which the CRC would have been taken from the header.
   const Found found = find({0x1B, 0xD1, 0xC0, 0x00, 0x00, 0x00, 0x55, 0x55}, 1000);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr TimeUs kHalfPast = 0x01020304LL * 1000000 + 500000;
 
-// Put together by hand from the standards; the check sum bit by bit with another program.
+// Put together by hand from the standards; the checksum bit by bit with another program.
 constexpr std::array<std::uint8_t, 24> kByHand = {0x0B, 0xD1, 0xE5, 0x67, 0x00, 0x11, 0x23, 0x03, 0x19, 0xBE, 0xEF, 0x12,
                                                   0x34, 0x01, 0x02, 0x03, 0x04, 0x80, 0x00, 0x00, 0xCA, 0xFE, 0xF7, 0xD5};
 

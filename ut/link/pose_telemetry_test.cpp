@@ -67,7 +67,7 @@ TEST(PoseTelemetry, LiesAtTheseBytes) {
   EXPECT_EQ(offset_of("change_from"), 567u);
   EXPECT_EQ(offset_of("change_event"), 571u);
   EXPECT_EQ(offset_of("change_to"), 575u);
-  EXPECT_EQ(offset_of("start_way"), 579u);
+  EXPECT_EQ(offset_of("start_source"), 579u);
   EXPECT_EQ(offset_of("refused_starts"), 582u);
   EXPECT_EQ(offset_of("bearing_reason"), 590u);
   EXPECT_EQ(offset_of("bearing_scans"), 595u);
@@ -77,10 +77,10 @@ TEST(PoseTelemetry, LiesAtTheseBytes) {
   EXPECT_EQ(offset_of("search_outcome"), 679u);
   EXPECT_EQ(offset_of("search_ratio"), 683u);
   EXPECT_EQ(offset_of("t_search_us"), 695u);
-  EXPECT_EQ(offset_of("candidate_q"), 703u);
-  EXPECT_EQ(offset_of("candidate_p_m"), 767u);
+  EXPECT_EQ(offset_of("candidate_q_sensor_target"), 703u);
+  EXPECT_EQ(offset_of("candidate_p_sensor_target_m"), 767u);
   EXPECT_EQ(offset_of("part"), 815u);
-  EXPECT_EQ(offset_of("odd_sigmas"), 818u);
+  EXPECT_EQ(offset_of("inconsistency_sigmas"), 818u);
   EXPECT_EQ(encode(PoseTelemetry{}).size(), 835u);
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 using Telecommand = std::array<std::uint8_t, 15>;
 
-// Put together by hand from the standards; the check sum bit by bit with another program.
+// Put together by hand from the standards; the checksum bit by bit with another program.
 constexpr Telecommand kCommandByHand = {0x1B, 0xD1, 0xE5, 0x67, 0x00, 0x08, 0x29, 0x11, 0x01, 0x12, 0x34, 0xCA, 0xFE, 0xB6, 0x14};
 
 CommandHeader command_header_by_hand() {

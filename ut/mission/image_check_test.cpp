@@ -104,7 +104,7 @@ TEST(ImageCheck, RefusesNamedFramesThatAreNone) {
   }
 }
 
-// As long as header and directory of 19 tables, and a check sum.
+// As long as header and directory of 19 tables, and a checksum.
 TEST(ImageCheck, RefusesAnImageThatEndsInItsDirectory) {
   VERIFIES("LASSO-IMG-003~1");
   test::TestImage image = framed_image({NamedFrame{}});
@@ -149,7 +149,7 @@ TEST(ImageCheck, GoesOnStepByStep) {
   for (const std::uint32_t words : {1U, 7U, 1000U}) {
     const Checked checked(bytes, words);
     EXPECT_EQ(checked.result.status, Status::kOk) << checked.result.what;
-    EXPECT_GE(checked.steps * (words + kLargestRecord_words), 2 * all_words);  // check sums of the whole and of the tables, and records
+    EXPECT_GE(checked.steps * (words + kLargestRecord_words), 2 * all_words);  // checksums of the whole and of the tables, and records
     EXPECT_LE(checked.steps, 4 * all_words / words + 200);
   }
   bytes.data()[test::table_offset(bytes, static_cast<std::uint32_t>(TableId::kElements))] ^= 0x40;

@@ -62,7 +62,7 @@ std::uint32_t* copies_of_selection(ImageKeeper& keeper) {
 }
 
 TEST_F(KeeperTest, WhichImageIsActiveSurvivesAFlip) {
-  VERIFIES("LASSO-HLT-014~1");
+  VERIFIES("LASSO-HLT-014~2");
   ASSERT_EQ(start().status, Status::kOk);
   make_ready(new_image());
   keeper_->swap();
@@ -77,7 +77,11 @@ TEST_F(KeeperTest, WhichImageIsActiveSurvivesAFlip) {
   }
   for (std::size_t bit = 0; bit < 8 * sizeof(std::size_t); ++bit) {
     *number ^= std::size_t{1} << bit;
+    EXPECT_EQ(points(), 600) << "before the boundary: " << bit;
+    EXPECT_EQ(keeper_->active_number(), 1) << bit;
+    EXPECT_EQ(keeper_->other().image_parameters().points, 512) << bit;
     EXPECT_FALSE(keeper_->keep_selection()) << bit;
+    EXPECT_TRUE(keeper_->keep_selection()) << bit;
     EXPECT_EQ(points(), 600);
   }
   copies[0] = 7;
@@ -86,15 +90,31 @@ TEST_F(KeeperTest, WhichImageIsActiveSurvivesAFlip) {
   EXPECT_EQ(keeper_->active_number(), 1) << "the number itself";
 }
 
-// An image whose state is another one would not be scrubbed any more.
+// Where the state of the active image lies: what keep_selection() puts right of a refusal.
+std::uint8_t* state_of_active(ImageKeeper& keeper) {
+  auto& slot = const_cast<ImageSlot&>(keeper.active());
+  auto* const bytes = reinterpret_cast<std::uint8_t*>(&slot);
+  slot.refuse(Status::kBadCrc, "a flip");
+  const std::vector<std::uint8_t> refused(bytes, bytes + sizeof slot);
+  EXPECT_FALSE(keeper.keep_selection());
+  const auto place = std::mismatch(refused.begin(), refused.end(), bytes).second;
+  EXPECT_NE(place, bytes + sizeof slot);
+  return place;
+}
+
+// An image whose state is another one would not be scrubbed any more. Each bit of it is put right at the boundary.
 TEST_F(KeeperTest, TheActiveImageStaysReady) {
-  VERIFIES("LASSO-HLT-014~1");
+  VERIFIES("LASSO-HLT-014~2");
   ASSERT_EQ(start().status, Status::kOk);
-  const_cast<ImageSlot&>(keeper_->active()).refuse(Status::kBadCrc, "a flip");
-  EXPECT_TRUE(keeper_->active().sealed_image().empty());
-  EXPECT_FALSE(keeper_->keep_selection());
-  EXPECT_EQ(keeper_->active().sealed_image().size(), old_image().size);
-  EXPECT_TRUE(keeper_->keep_selection());
+  std::uint8_t* const state = state_of_active(*keeper_);
+  ASSERT_EQ(*state, static_cast<std::uint8_t>(ImageState::kReady));
+  for (unsigned bit = 0; bit < 8; ++bit) {
+    *state = static_cast<std::uint8_t>(*state ^ 1u << bit);
+    EXPECT_TRUE(keeper_->active().sealed_image().empty()) << bit;
+    EXPECT_FALSE(keeper_->keep_selection()) << bit;
+    EXPECT_EQ(keeper_->active().sealed_image().size(), old_image().size) << bit;
+    EXPECT_TRUE(keeper_->keep_selection()) << bit;
+  }
 }
 
 // Backwards, with a break, some twice.
@@ -138,7 +158,7 @@ TEST_F(KeeperTest, RefusesPartsThatDoNotBelong) {
   for (std::uint32_t at = 0; at < 1000; at += 256) {
     EXPECT_EQ(keeper_->put(at, ConstBytes(part, std::min(256U, 1000 - at))), ImageRefusal::kNone);
   }
-  EXPECT_EQ(keeper_->begin_check(), ImageRefusal::kOtherImage);  // its last bytes are not the check sum that was named
+  EXPECT_EQ(keeper_->begin_check(), ImageRefusal::kOtherImage);  // its last bytes are not the checksum that was named
   ASSERT_EQ(keeper_->open(1200, 2), ImageRefusal::kNone);
   EXPECT_EQ(keeper_->map().loaded(), 0U);
 }

@@ -30,7 +30,7 @@ class LoaderTest : public ::testing::Test {
   void put(std::size_t offset, std::uint32_t word) {
     for (std::size_t i = 0; i < 4; ++i) image_.data()[offset + i] = static_cast<std::uint8_t>(word >> (24 - 8 * i));
   }
-  // Changes one word of a table, with check sums made good again: what is left is for the validation to find.
+  // Changes one word of a table, with checksums made good again: what is left is for the validation to find.
   void spoil(TableId id, std::size_t word, std::uint32_t value) {
     put(test::table_offset(image_, static_cast<std::uint32_t>(id)) + 4 * word, value);
     test::repair_crcs(image_);

@@ -4,6 +4,7 @@
 
 #include <cstring>
 #include <limits>
+#include <map>
 #include <set>
 #include <string>
 
@@ -35,6 +36,37 @@ TEST(Parameters, EveryRowIsOfItsOwnAndComplete) {
   EXPECT_EQ(sizeof(MissionParameters), parameter_rows().size() * sizeof(double));
   mark = 0;
   for (const ParameterRow& row : parameter_rows()) EXPECT_EQ(marks.*row.member, ++mark) << row.key;
+}
+
+std::string section_of(const ParameterRow& row) {
+  const std::string key = row.key;
+  return key.substr(0, key.rfind('.'));
+}
+
+// A new row stands at the end of its section, with the next id ever.
+TEST(Parameters, IdsAreUniqueAndRiseInEachSection) {
+  VERIFIES("LASSO-IMG-006~1");
+  std::set<std::uint16_t> ids;
+  std::map<std::string, std::uint16_t> newest;
+  for (const ParameterRow& row : parameter_rows()) {
+    EXPECT_TRUE(ids.insert(row.id).second) << row.key;
+    EXPECT_LT(row.id, kNextParameterId) << row.key;
+    const auto [last, first] = newest.emplace(section_of(row), row.id);
+    EXPECT_TRUE(first || row.id > last->second) << row.key;
+    last->second = row.id;
+  }
+}
+
+// Of a table as a later version has it: a row is gone, and a new one stands in front of older ones.
+TEST(Parameters, AnIdFindsItsRowWhereverItStands) {
+  VERIFIES("LASSO-IMG-018~1");
+  ParameterRow rows[4] = {};
+  const std::uint16_t ids[] = {0, 1, 104, 3}, others[] = {2, 4, 103, 105, 0xFFFF};
+  for (std::size_t i = 0; i < 4; ++i) rows[i].id = ids[i];
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(index_of_id(Span<const ParameterRow>(rows), ids[i]), i);
+  for (const std::uint16_t id : others) EXPECT_EQ(index_of_id(Span<const ParameterRow>(rows), id), 4U) << id;
+  EXPECT_EQ(index_of_id(Span<const ParameterRow>(), 0), 0U);
+  for (std::size_t i = 0; i < parameter_rows().size(); ++i) EXPECT_EQ(index_of_id(parameter_rows(), parameter_rows()[i].id), i);
 }
 
 TEST(Parameters, TheFirstRowsAreThoseOfASensor) {

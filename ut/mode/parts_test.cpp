@@ -158,7 +158,7 @@ TEST_F(ComparePartsTest, TheScannedPartThatDisagreesIsDroppedForTheRest) {
   EXPECT_FALSE(rests_now(1, 13));
 }
 
-// The wrong part comes first: the second one is dropped, being the odd one among two; the third one sides with it.
+// The wrong part comes first: the second one is dropped, being the inconsistent one of two; the third one sides with it.
 TEST_F(ComparePartsTest, TheMajorityIsRightWhoeverCameFirst) {
   VERIFIES("LASSO-MOD-162~1");
   see(10, 1, 20e-3);
@@ -168,9 +168,9 @@ TEST_F(ComparePartsTest, TheMajorityIsRightWhoeverCameFirst) {
   EXPECT_EQ(report_.inconsistent, 1);
   EXPECT_NEAR(report_.inconsistency_sigmas, 20, 1e-4);
   EXPECT_TRUE(rests_now(1, 13));
-  EXPECT_FALSE(rests_now(2, 13)) << "pardoned";
+  EXPECT_FALSE(rests_now(2, 13)) << "reinstated";
   EXPECT_EQ(see(13, 2, 0), PoseReason::kValid);
-  EXPECT_EQ(report_.inconsistent, kWhole) << "the odd one rests already: no news";
+  EXPECT_EQ(report_.inconsistent, kWhole) << "the inconsistent one rests already: no news";
 }
 
 TEST_F(ComparePartsTest, WhatWasToldOnceIsNoNews) {

@@ -124,7 +124,7 @@ TEST_F(SearcherTest, OffersWhatTheSearchAcceptsAsAStart) {
   EXPECT_EQ(step.refusal, StartRefusal::kNone);
   EXPECT_EQ(step.registration.reason, PoseReason::kSearching) << "no scan has confirmed it";
   EXPECT_EQ(state_.mode, TrackingMode::kStarting);
-  EXPECT_EQ(state_.way, InitialPoseSource::kSearch);
+  EXPECT_EQ(state_.source, InitialPoseSource::kSearch);
   EXPECT_EQ(state_.missed, 0);
   EXPECT_EQ(state_.filter.t_us, step.registration.t_us);
   EXPECT_LT(error(state_.filter, 0).head<3>().norm(), 2 * kRadPerDeg);

@@ -84,7 +84,7 @@ TEST_F(StartCheckTest, ARightStartIsBelievedOnceTheSearchHasFoundNothingElse) {
   EXPECT_EQ(step.event, ModeEvent::kPoseValid);
   EXPECT_EQ(step.after.mode, TrackingMode::kTracking);
   EXPECT_EQ(step.after.check.stage, Stage::kNone);
-  EXPECT_NE(step.search.outcome, SearchOutcome::kNone) << "what it found is told";
+  EXPECT_NE(step.search.outcome, SearchOutcome::kNone) << "what it found is reported";
   EXPECT_EQ(step.after.filter.accepted, k) << "the track was followed meanwhile";
   EXPECT_LT(error(step.after.filter.T_sensor_target, 0).norm(), 5e-3);
 }
@@ -201,9 +201,9 @@ TEST_F(StartCheckTest, AnImplausibleScanEndsACheckThatWaitsForItsSecondSearch) {
 TEST_F(StartCheckTest, WhatWasSearchedOrIsFoundNearItsPredictionIsNotChecked) {
   VERIFIES("LASSO-MOD-184~4");
   start(small_error());
-  state_.way = InitialPoseSource::kSearch;
+  state_.source = InitialPoseSource::kSearch;
   EXPECT_EQ(try_frame(0).after.mode, TrackingMode::kTracking);
-  state_.way = InitialPoseSource::kUplink;
+  state_.source = InitialPoseSource::kUplink;
   EXPECT_EQ(try_frame(0).after.searches, 1u);
   change_mode(ModeEvent::kPoseValid, state_);
   change_mode(ModeEvent::kReacquire, state_);

@@ -153,44 +153,44 @@ TEST_F(StartsTest, WhatIsNotAtTheBearingIsRefused) {
   EXPECT_EQ(try_offer(), StartRefusal::kNone);
 }
 
-TEST_F(StartsTest, TheDeskFollowsTheMissionsOrder) {
+TEST_F(StartsTest, TheSourcesFollowTheMissionsOrder) {
   VERIFIES("LASSO-MOD-131~1 LASSO-MOD-133~3");
-  InitialPoseSources desk;
+  InitialPoseSources sources;
   MissionParameters& p = mission_.parameters;
-  EXPECT_EQ(desk.next(p, false), InitialPoseSource::kNone);
-  desk.put(InitialPoseSource::kApriori, offer_);
-  desk.put(InitialPoseSource::kNavigation, offer_);
+  EXPECT_EQ(sources.next(p, false), InitialPoseSource::kNone);
+  sources.put(InitialPoseSource::kApriori, offer_);
+  sources.put(InitialPoseSource::kNavigation, offer_);
   offer_.t_us = 77;
-  desk.put(InitialPoseSource::kNavigation, offer_);  // the last one counts
-  EXPECT_EQ(desk.next(p, false), InitialPoseSource::kNavigation);
-  EXPECT_EQ(desk.take(InitialPoseSource::kNavigation).t_us, 77);
-  EXPECT_EQ(desk.next(p, false), InitialPoseSource::kApriori);
-  desk.put(InitialPoseSource::kHandover, offer_);
-  EXPECT_EQ(desk.next(p, false), InitialPoseSource::kHandover);
+  sources.put(InitialPoseSource::kNavigation, offer_);  // the last one counts
+  EXPECT_EQ(sources.next(p, false), InitialPoseSource::kNavigation);
+  EXPECT_EQ(sources.take(InitialPoseSource::kNavigation).t_us, 77);
+  EXPECT_EQ(sources.next(p, false), InitialPoseSource::kApriori);
+  sources.put(InitialPoseSource::kHandover, offer_);
+  EXPECT_EQ(sources.next(p, false), InitialPoseSource::kHandover);
   p.start_first = static_cast<double>(InitialPoseSource::kApriori);
-  EXPECT_EQ(desk.next(p, false), InitialPoseSource::kApriori);
+  EXPECT_EQ(sources.next(p, false), InitialPoseSource::kApriori);
   p.start_first = p.start_second = p.start_third = p.start_fourth = static_cast<double>(InitialPoseSource::kNone);
-  EXPECT_EQ(desk.next(p, true), InitialPoseSource::kNone);
-  EXPECT_DEATH(desk.put(static_cast<InitialPoseSource>(kInitialPoseSources), offer_), "no such way");
+  EXPECT_EQ(sources.next(p, true), InitialPoseSource::kNone);
+  EXPECT_DEATH(sources.put(static_cast<InitialPoseSource>(kInitialPoseSources), offer_), "no such source");
 }
 
 TEST_F(StartsTest, SearchHasItsTurnWhereItIsPossibleAndAgainWhenAllElseIsTried) {
   VERIFIES("LASSO-MOD-131~1 LASSO-MOD-133~3");
-  InitialPoseSources desk;
+  InitialPoseSources sources;
   MissionParameters& p = mission_.parameters;
   p.start_first = static_cast<double>(InitialPoseSource::kSearch);
   p.start_second = static_cast<double>(InitialPoseSource::kApriori);
-  desk.put(InitialPoseSource::kApriori, offer_);
-  EXPECT_EQ(desk.next(p, false), InitialPoseSource::kApriori);
-  EXPECT_EQ(desk.next(p, true), InitialPoseSource::kSearch);
-  (void)desk.take(InitialPoseSource::kSearch);
-  EXPECT_EQ(desk.next(p, true), InitialPoseSource::kApriori) << "the others first";
-  (void)desk.take(InitialPoseSource::kApriori);
-  EXPECT_EQ(desk.next(p, true), InitialPoseSource::kSearch) << "again";
-  EXPECT_EQ(desk.next(p, false), InitialPoseSource::kNone);
+  sources.put(InitialPoseSource::kApriori, offer_);
+  EXPECT_EQ(sources.next(p, false), InitialPoseSource::kApriori);
+  EXPECT_EQ(sources.next(p, true), InitialPoseSource::kSearch);
+  (void)sources.take(InitialPoseSource::kSearch);
+  EXPECT_EQ(sources.next(p, true), InitialPoseSource::kApriori) << "the others first";
+  (void)sources.take(InitialPoseSource::kApriori);
+  EXPECT_EQ(sources.next(p, true), InitialPoseSource::kSearch) << "again";
+  EXPECT_EQ(sources.next(p, false), InitialPoseSource::kNone);
 }
 
-TEST_F(StartsTest, TheOrderNamesItsWays) {
+TEST_F(StartsTest, TheOrderNamesItsSources) {
   VERIFIES("LASSO-MOD-133~3");
   MissionParameters& p = mission_.parameters;
   p.start_first = static_cast<double>(InitialPoseSource::kSearch);

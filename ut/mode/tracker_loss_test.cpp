@@ -1,4 +1,4 @@
-// What ends a track, and how soon it is told: the target goes, is another one, jumps, or shows less than a pose needs.
+// What ends a track, and how soon it is reported: the target goes, is another one, jumps, or shows less than a pose needs.
 #include <algorithm>
 #include <cmath>
 
@@ -32,7 +32,7 @@ class TrackerLossTest : public test::TrackerTest {
     tracked_ = state_;
   }
 
-  // The first two scans after the loss: the first one is told at once, and neither one's pose joins the filter.
+  // The first two scans after the loss: the first one is reported at once, and neither one's pose joins the filter.
   template <class Spoil>
   void expect_told(std::initializer_list<R> reasons, const Spoil& spoil) {
     state_ = tracked_;

@@ -205,7 +205,7 @@ TEST_F(TrackerPartsTest, TheModeBeginsWithoutMemoriesOfParts) {
 }
 
 TEST_F(TrackerPartsTest, TheNextPartIsChosenForTheScanToBePlanned) {
-  VERIFIES("LASSO-MOD-161~1");
+  VERIFIES("LASSO-MOD-161~2");
   start(small_error());
   TrackStep step = track(0);
   EXPECT_EQ(next_part(mission_, parts_, kWhole, 2, 3 * test::kPeriodUs, step), kWhole) << "not in a mode of parts";

@@ -38,10 +38,16 @@ TEST_F(TrackerTest, AFirstRegistrationCanStandAlone) {
   EXPECT_LT((step.after.filter.covariance.topLeftCorner<6, 6>() - step.registration.covariance).norm(), 1e-18);
 }
 
-TEST_F(TrackerTest, WideStartTakesWhatANarrowOneCannot) {
-  VERIFIES("LASSO-MOD-004~1");
+// From where a narrow registration does not find the box.
+Vec6 far_off() {
   Vec6 off;
   off << 0.12, -0.1, 0.08, 0.1, 0.08, 0.12;
+  return off;
+}
+
+TEST_F(TrackerTest, WideStartTakesWhatANarrowOneCannot) {
+  VERIFIES("LASSO-MOD-004~2");
+  const Vec6 off = far_off();
   start(off);
   const TrackStep wide = track(0);
   ASSERT_TRUE(wide.registration.valid()) << to_string(wide.registration.reason);
@@ -54,13 +60,38 @@ TEST_F(TrackerTest, WideStartTakesWhatANarrowOneCannot) {
   EXPECT_GT(error(step.registration.T_sensor_target, step.registration.t_us).norm(), 5e-3);
 }
 
+// Of a prediction that is believed to be right, so that the mode alone asks for a wide start, also after a scan that was lost.
+TEST_F(TrackerTest, OnlyModesThatLookForTheTargetRegisterFromAWideStart) {
+  VERIFIES("LASSO-MOD-004~2");
+  const auto finds = [&](TrackingMode mode, StartCheck::Stage stage) {
+    state_ = TrackState{};
+    start(far_off());
+    miss(0);
+    state_.mode = mode;
+    state_.check.stage = stage;
+    state_.filter.covariance = 1e-10 * state_.filter.covariance.Identity();
+    const Registration found = track(1).registration;
+    return error(found.T_sensor_target, found.t_us).norm() < 5e-3;
+  };
+  for (const double wide : {1.0, 0.0}) {
+    MissionParameters p = test::box_parameters(scene_);
+    p.wide_start = wide;
+    load(p);
+    for (const TrackingMode mode : {TrackingMode::kStarting, TrackingMode::kReacquiring})
+      EXPECT_EQ(finds(mode, StartCheck::Stage::kNone), wide > 0) << static_cast<int>(mode);
+    for (const TrackingMode mode : {TrackingMode::kTracking, TrackingMode::kCoasting})
+      EXPECT_FALSE(finds(mode, StartCheck::Stage::kNone)) << static_cast<int>(mode);
+    EXPECT_FALSE(finds(TrackingMode::kStarting, StartCheck::Stage::kSearching)) << "a scan has confirmed it, and it is checked";
+  }
+}
+
 TEST_F(TrackerTest, MovesTheStartToItsFrame) {
   VERIFIES("LASSO-MOD-003~2 LASSO-MOD-132~1");
   ASSERT_EQ(start_at(scene_.pose_at(300000), scene_.rates, 300000, 1000000), StartRefusal::kNone);
   EXPECT_LT(error(state_.filter.T_sensor_target, 1000000).norm(), 1e-12);
   EXPECT_EQ(state_.filter.t_us, 1000000);
   EXPECT_EQ(state_.mode, TrackingMode::kStarting);
-  EXPECT_EQ(state_.way, InitialPoseSource::kUplink);
+  EXPECT_EQ(state_.source, InitialPoseSource::kUplink);
 }
 
 TEST_F(TrackerTest, RefusesAStartThatMeansNothing) {

@@ -197,7 +197,7 @@ TEST_F(TrackerTest, LooksNearThePredictionThenForTheBearing) {
 TEST_F(TrackerTest, AStartThatIsNotConfirmedLeavesASearchThatIsInTheOrder) {
   VERIFIES("LASSO-MOD-133~3");
   for (const bool ordered : {true, false}) {
-    for (const InitialPoseSource way : {InitialPoseSource::kUplink, InitialPoseSource::kSearch}) {
+    for (const InitialPoseSource source : {InitialPoseSource::kUplink, InitialPoseSource::kSearch}) {
       MissionParameters p = test::box_parameters(scene_);
       p.start_frames = 0;
       p.coast_frames = 0;
@@ -205,8 +205,8 @@ TEST_F(TrackerTest, AStartThatIsNotConfirmedLeavesASearchThatIsInTheOrder) {
       load(p);
       state_ = TrackState();
       start(small_error());
-      state_.way = way;
-      const bool searched = ordered && way != InitialPoseSource::kSearch;
+      state_.source = source;
+      const bool searched = ordered && source != InitialPoseSource::kSearch;
       EXPECT_EQ(miss(0).event, searched ? ModeEvent::kRecover : ModeEvent::kExhausted);
       EXPECT_EQ(state_.mode, searched ? TrackingMode::kBearing : TrackingMode::kLost);
       state_ = TrackState();

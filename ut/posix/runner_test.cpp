@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <thread>
 
 #include "fsw/core/crc.hpp"
@@ -44,7 +45,7 @@ TEST(Runner, TwoThreadsGiveTheBytesOfOne) {
 class RunnerOfEachPace : public testing::TestWithParam<Pace> {};
 
 TEST_P(RunnerOfEachPace, MeasuresTheEstimateThatEachFrameReports) {
-  VERIFIES("LASSO-EXE-011~1");
+  VERIFIES("LASSO-EXE-011~2 LASSO-EXE-013~1");
   test::ComponentScene scene(test::box_parameters(test::default_scene()));
   scene.begin();
   Runner runner(*scene.component, GetParam());
@@ -61,10 +62,54 @@ TEST_P(RunnerOfEachPace, MeasuresTheEstimateThatEachFrameReports) {
   }
 }
 
+// Five frames of 20 s each.
+TEST_P(RunnerOfEachPace, SimulatedTimeDoesNotWaitForTheClock) {
+  VERIFIES("LASSO-EXE-011~2");
+  MissionParameters parameters = test::box_parameters(test::default_scene());
+  parameters.period_s = 20;
+  test::ComponentScene scene(parameters);
+  scene.begin();
+  Runner runner(*scene.component, GetParam());
+  const auto start = std::chrono::steady_clock::now();
+  for (std::uint32_t frame = 0; frame < 5; ++frame) EXPECT_EQ(runner.run_frame().boundary_us, frame * 20'000'000LL);
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 50);
+}
+
 INSTANTIATE_TEST_SUITE_P(WithAWorkerAndWithout, RunnerOfEachPace, testing::Values(Pace::kLockstep, Pace::kAlone));
 
+std::int64_t clock_ns(clockid_t clock) {
+  timespec now{};
+  EXPECT_EQ(clock_gettime(clock, &now), 0);
+  const std::int64_t seconds = now.tv_sec;
+  return 1'000'000'000 * seconds + now.tv_nsec;
+}
+// Of all threads but this one.
+std::int64_t others_ns() { return clock_ns(CLOCK_PROCESS_CPUTIME_ID) - clock_ns(CLOCK_THREAD_CPUTIME_ID); }
+
+// The worker does nothing but estimate, and no other thread does anything: what the others take is what the estimates take. The last
+// estimate is no longer reported.
+TEST(Runner, ProcessorTimeIsThatOfTheWorker) {
+  VERIFIES("LASSO-EXE-013~1");
+  test::ComponentScene scene(test::box_parameters(test::default_scene()));
+  scene.begin();
+  Runner runner(*scene.component);
+  const std::int64_t began_ns = clock_ns(CLOCK_MONOTONIC), before_ns = others_ns();
+  std::int64_t cpu_ns = 0, wall_ns = 0;
+  for (int frame = 0; frame < kFrames; ++frame) {
+    const FrameRecord record = runner.run_frame();
+    cpu_ns += record.estimate_cpu_ns;
+    wall_ns += record.estimate_wall_ns;
+  }
+  constexpr std::int64_t kRounding_ns = 10'000'000;
+  const std::int64_t taken_ns = others_ns() - before_ns;
+  EXPECT_GT(cpu_ns, taken_ns / 2);
+  EXPECT_LT(cpu_ns, taken_ns + kRounding_ns);
+  EXPECT_GT(wall_ns + kRounding_ns, cpu_ns);
+  EXPECT_LE(wall_ns, clock_ns(CLOCK_MONOTONIC) - began_ns);
+}
+
 TEST(Runner, RealTimeKeepsItsPace) {
-  VERIFIES("LASSO-EXE-011~1");
+  VERIFIES("LASSO-EXE-011~2");
   MissionParameters parameters = test::box_parameters(test::default_scene());
   parameters.period_s = 0.1;
   parameters.duration_s = 0.09;
@@ -82,7 +127,7 @@ TEST(Runner, RealTimeKeepsItsPace) {
 
 // A machine that stands still for a second stretches the time of the run. It makes up for 20 ms of that, and loses no scan.
 TEST(Runner, APacedRunGivesTheBytesOfLockstepHoweverLateTheMachineIs) {
-  VERIFIES("LASSO-EXE-012~1");
+  VERIFIES("LASSO-EXE-011~2 LASSO-EXE-012~1");
   const std::vector<std::uint8_t> expected = single_threaded();
   test::ComponentScene scene(test::box_parameters(test::default_scene()));
   scene.begin();

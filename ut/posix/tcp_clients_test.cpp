@@ -173,6 +173,38 @@ TEST_F(TcpClientsTest, AnAnswerGoesToWhoAsked) {
   EXPECT_EQ(told(a), Stream());
 }
 
+// As by an upload beside a monitor.
+TEST_F(TcpClientsTest, TheAnswersOfSeveralCommandsInOneFrameAllGoToWhoAsked) {
+  VERIFIES("LASSO-LNK-054~1");
+  const Descriptor holder = connect_operator(), b = connect();
+  Stream commands;
+  for (std::uint16_t i = 0; i < TcpClients::kAsked; ++i) test::append(commands, test::ping(static_cast<std::uint16_t>(100 + i)));
+  send(b, commands);
+  for (std::uint16_t i = 0; i < TcpClients::kAsked; ++i) ASSERT_EQ(read(), test::ping(static_cast<std::uint16_t>(100 + i)));
+  for (std::uint16_t i = 0; i < TcpClients::kAsked; ++i) {
+    const Stream answer = answer_to(test::ping(static_cast<std::uint16_t>(100 + i)));
+    EXPECT_TRUE(clients_.write(view(answer)));
+    ASSERT_EQ(told(b), answer) << i;
+  }
+  EXPECT_EQ(told(holder), Stream());
+}
+
+// The later one is refused for its count: its operator has to hear of that.
+TEST_F(TcpClientsTest, OfOperatorsWithTheSameCountWhoSentItLastIsAnswered) {
+  VERIFIES("LASSO-LNK-054~1");
+  const Descriptor a = connect_operator(), b = connect_operator();
+  for (const Descriptor* one : {&a, &b, &a}) {
+    const Descriptor& other = one == &a ? b : a;
+    send(*one, test::ping(7));
+    ASSERT_EQ(read(), test::ping(7));
+    send(*one, test::ping(8));
+    ASSERT_EQ(read(), test::ping(8));
+    EXPECT_TRUE(clients_.write(view(answer_to(test::ping(7)))));
+    EXPECT_EQ(told(*one), answer_to(test::ping(7)));
+    EXPECT_EQ(told(other), Stream());
+  }
+}
+
 TEST_F(TcpClientsTest, NobodyGetsTheAnswerOfAnOperatorByItsCount) {
   VERIFIES("LASSO-LNK-048~1");
   const Descriptor stranger = connect(), a = connect(), b = connect();

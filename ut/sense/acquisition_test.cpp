@@ -336,11 +336,24 @@ TEST_F(AcquisitionTest, MoreSamplesThanAskedForIsALostScan) {
 TEST_F(AcquisitionTest, WhatTheImageCannotHoldIsCounted) {
   VERIFIES("LASSO-SNS-026~1");
   const RangeSample last = sensor.samples.back();
-  sensor.samples.resize(kMaxRays + 7, last);
+  sensor.samples.resize(kMaxRays, last);
+  EXPECT_EQ(run().overflow, 0u);
+  std::vector<RangeSample> more(7, last);  // of each kind
+  more[0].state = RayState::kHit;
+  more[1].state = RayState::kMiss;
+  more[2].state = RayState::kInvalid;
+  more[3].state = RayState::kLost;
+  more[4].direction[0] = 3;
+  more[5].t_us = -1;
+  sensor.samples.insert(sensor.samples.end(), more.begin(), more.end());
   const ScanVerdict verdict = run();
   EXPECT_EQ(verdict.count, kMaxRays);
+  EXPECT_EQ(image->samples.size(), kMaxRays);
+  EXPECT_EQ(verdict.hits + verdict.misses + verdict.invalid, verdict.count);
   EXPECT_EQ(verdict.overflow, 7u);
   EXPECT_TRUE(verdict.complete);
+  sensor.samples.resize(kMaxRays);
+  EXPECT_EQ(run().overflow, 0u) << "of the scan before";
 }
 
 TEST_F(AcquisitionTest, RefusedStartsSayWhyAndLeaveNothingUnderWay) {

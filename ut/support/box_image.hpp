@@ -45,7 +45,7 @@ inline TestImage make_box_image(const MissionParameters& parameters, const BoxMo
   return make_image(parameters, make_box_tables(model));
 }
 
-// Recomputes the check sums after a test has changed bytes.
+// Recomputes the checksums after a test has changed bytes.
 void repair_crcs(TestImage& image);
 // Byte offset of a table (1-based id) in the image.
 std::size_t table_offset(TestImage& image, std::uint32_t id);

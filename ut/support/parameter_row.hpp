@@ -1,4 +1,4 @@
-// The place of a parameter in the dictionary's order.
+// A parameter by its key: the place of its row, and its id on the link.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,5 +16,6 @@ inline std::size_t row_of(const std::string& key) {
   ADD_FAILURE() << key;
   return 0;
 }
+inline std::uint16_t id_of(const std::string& key) { return parameter_rows()[row_of(key)].id; }
 
 }  // namespace lasso::test

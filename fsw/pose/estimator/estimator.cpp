@@ -211,7 +211,8 @@ double motion_variance(const Mission& mission, const StartPoint& start, double w
   return way_m * way_m / 3 / noise;
 }
 
-// A start that may be rough: the far way is taken only where the near one does not explain the scan, and ends too close for a second look.
+// A start that may be rough: coarse alignment is taken only where the near registration does not explain the scan, and ends too close for a
+// second look.
 HitSolution register_wide(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
   HitSolution near = register_hits(mission, T_target_sensor, workspace);
   if (explained_share(near) >= kExplainedShare) return near;

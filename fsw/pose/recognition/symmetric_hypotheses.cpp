@@ -52,7 +52,7 @@ std::uint32_t PoseSearch::test_symmetry_next(const Mission& mission, Workspace& 
   put_points(subsets_[last()], kSubsetHits, workspace);
   take({weigh_hits(mission, T_target_sensor, workspace), fit}, symmetric);
   const std::uint32_t work = score_work(fit) + weigh_work(workspace.points.size()) + image_before(mission, symmetry, symmetric);
-  invariant(tracks_.push_back(symmetric), "room for a twin");
+  invariant(tracks_.push_back(symmetric), "room for a symmetric hypothesis");
   return work;
 }
 

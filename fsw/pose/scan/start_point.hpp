@@ -8,8 +8,9 @@ namespace lasso {
 // The prediction for the scan's reference time.
 struct StartPoint {
   Pose T_sensor_target;
-  Twist rates;        // for moving the points to the reference time (estimation.deskew)
-  bool wide = false;  // a rough start (20 deg, a quarter of the model's size): where the near way fails, centroid, far field and slides
+  Twist rates;  // for moving the points to the reference time (estimation.deskew)
+  bool wide =
+      false;  // a rough start (20 deg, a quarter of the model's size): where the near registration fails, centroid, far field and slides
   double rate_sigma_mps = 0;  // how far the rates may be off, as a velocity at the model's radius along any axis (1 sigma)
   bool partial = false;       // the model is a part of what is scanned: a return that meets none of it does not count against the pose
 };

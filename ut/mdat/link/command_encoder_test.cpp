@@ -1,9 +1,11 @@
 #include "mdat/link/command_encoder.hpp"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "mdat/common/errors.hpp"
 #include "mdat/link/decode.hpp"
+#include "mdat/link/dictionary_text.hpp"
 #include "ut/support/generator.hpp"
 #include "ut/support/verifies.hpp"
 
@@ -71,6 +73,10 @@ TEST(CommandEncoder, TakesParametersByName) {
   VERIFIES("LASSO-GND-021~2");
   const PacketRow& row = command_row("report_parameter");
   EXPECT_EQ(encode_command(row, {{"parameter", "sensor.sigma_k_per_m"}}, 0), encode_command(row, {{"parameter", "1"}}, 0));
+  for (const nlohmann::json& parameter : nlohmann::json::parse(dictionary_json()).at("parameters")) {
+    const std::string name = parameter.at("name"), id = parameter.at("id").dump();
+    EXPECT_EQ(encode_command(row, {{"parameter", name}}, 0), encode_command(row, {{"parameter", id}}, 0)) << name;
+  }
   EXPECT_NE(refusal_of("report_parameter", {{"parameter", "sensor.size"}}).find("not an integer"), std::string::npos);
 }
 
@@ -90,9 +96,9 @@ TEST(CommandEncoder, WhatIsWrongIsNamedWithItsPlaceAndRemedy) {
   EXPECT_NE(refusal_of("correlate_time", {{"component_us", "1.5"}, {"spacecraft_us", "0"}}).find("not an integer"), std::string::npos);
   EXPECT_THROW(split_argument("mode"), InputError);
   EXPECT_EQ(split_argument("a=b=c").second, "b=c");
-  std::map<std::string, std::string> start{
-      {"way", "uplink"},        {"t_us", "0"},     {"q_sensor_target", "0,0,0"}, {"p_sensor_target_m", "0,0,1"},
-      {"omega_radps", "0,0,0"}, {"v_mps", "0,0,0"}};
+  std::map<std::string, std::string> start{{"start_source", "uplink"},   {"t_us", "0"},
+                                           {"q_sensor_target", "0,0,0"}, {"p_sensor_target_m", "0,0,1"},
+                                           {"omega_radps", "0,0,0"},     {"v_mps", "0,0,0"}};
   EXPECT_NE(refusal_of("offer_start", start).find("q_sensor_target=0,0,0: has 3 values, and needs 4"), std::string::npos);
 }
 

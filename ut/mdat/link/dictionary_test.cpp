@@ -1,12 +1,14 @@
 #include "fsw/link/dictionary.hpp"
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
 #include "mdat/link/dictionary_cosmos.hpp"
 #include "mdat/link/dictionary_text.hpp"
+#include "ut/link/pose_packet.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso::mdat {
@@ -176,13 +178,16 @@ TEST(DictionaryJson, HasEveryPacketItemAndChoice) {
   EXPECT_EQ(json.at("apid"), kApid);
   ASSERT_EQ(json.at("packets").size(), std::size(kPackets));
   const auto& pose = json.at("packets").at(0);
-  EXPECT_EQ(pose.at("size"), 835);
+  EXPECT_EQ(pose.at("size"), test::pose_packet_bytes());
   ASSERT_EQ(pose.at("items").size(), kPackets[0].items.size());
   EXPECT_EQ(pose.at("items").at(0).at("byte"), 22);
   EXPECT_TRUE(pose.at("items").at(0).at("maximum").is_null()) << "unbounded";
   EXPECT_EQ(pose.at("items").at(5).at("enumeration"), "pose_reason");
   EXPECT_EQ(json.at("enumerations").at("pose_reason").at(11).at("name"), "implausible");
-  EXPECT_GT(json.at("parameters").size(), 70U);
+  std::map<int, std::string> parameters;
+  for (const auto& parameter : json.at("parameters")) EXPECT_TRUE(parameters.emplace(parameter.at("id"), parameter.at("name")).second);
+  EXPECT_GT(parameters.size(), 70U);
+  EXPECT_EQ(parameters.at(60), "tracking.coast_frames");
 }
 
 // The dictionary of another component is the preset's with another number, in each format where packets are told apart by it.
@@ -251,14 +256,36 @@ std::string unit_of_name(const std::string& name) {
   return "";
 }
 
+bool says_another_unit(const std::string& name) {
+  for (const char* end : {"_mm", "_cm", "_km", "_ms", "_ns", "_min", "_h", "_hz", "_mrad", "_rpm", "_percent"}) {
+    if (name.ends_with(end)) return true;
+  }
+  return name.find("deg") != std::string::npos;
+}
+
+// The value of a mission's key, whose own row says the unit.
+bool is_of_a_parameter(const PacketRow& packet, const ItemRow& row) {
+  const std::string name = row.name;
+  const bool tells_it =
+      std::any_of(packet.items.begin(), packet.items.end(), [](const ItemRow& item) { return std::string(item.name) == "parameter"; });
+  return tells_it && (name == "value" || name == "image_value");
+}
+
+// By its meaning, or its shape: four real numbers.
+bool is_attitude(const ItemRow& row) {
+  return std::string(row.meaning).find("quaternion") != std::string::npos || (row.count == 4 && is_real(row.type));
+}
+
 TEST(Dictionary, UnitsAreOfOneSystemAndNamesAgreeWithThem) {
-  VERIFIES("LASSO-SYS-022~2");
+  VERIFIES("LASSO-SYS-022~3");
   const std::set<std::string> system = {"1", "m", "rad", "m/s", "rad/s", "s", "us"};
-  int named = 0, mixed = 0, attitudes = 0;
+  int named = 0, mixed = 0, attitudes = 0, parameters = 0;
   for (const PacketRow& packet : kPackets) {
     for (const ItemRow& row : packet.items) {
       const std::string place = std::string(packet.name) + "." + row.name, unit = row.unit;
-      std::istringstream parts(unit == "as it says" ? "1" : unit);  // the value of a mission's key, whose own row says the unit
+      EXPECT_EQ(unit == "as it says", is_of_a_parameter(packet, row)) << place;
+      parameters += is_of_a_parameter(packet, row);
+      std::istringstream parts(unit == "as it says" ? "1" : unit);
       for (std::string part; std::getline(parts, part, ',');) EXPECT_TRUE(system.contains(part)) << place << " [" << unit << "]";
       mixed += unit.find(',') != std::string::npos;
       const std::string said = unit_of_name(row.name);
@@ -266,15 +293,16 @@ TEST(Dictionary, UnitsAreOfOneSystemAndNamesAgreeWithThem) {
         EXPECT_EQ(said, unit) << place;
       }
       named += said != "";
-      EXPECT_EQ(std::string(row.name).find("deg"), std::string::npos) << place;
-      if (row.count != 4 || !is_real(row.type) || std::string(row.name).find("q_") == std::string::npos) continue;
+      EXPECT_FALSE(says_another_unit(row.name)) << place;
+      if (!is_attitude(row)) continue;
       ++attitudes;
       EXPECT_TRUE(std::string(row.name).ends_with("q_sensor_target") || std::string(row.name).ends_with("q_in_of")) << place;
     }
   }
   EXPECT_GT(named, 20);
   EXPECT_GT(mixed, 5) << "arrays of two quantities say both units, in their order";
-  EXPECT_GE(attitudes, 3);
+  EXPECT_GE(attitudes, 5);
+  EXPECT_EQ(parameters, 4) << "of the command, its report (two) and its event";
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ std::string sequence_of(const Stream& stream) {
 }
 std::string summary_of(const Stream& stream) { return headers_summary(list_headers(view(stream))); }
 
-TEST(StreamCrc, AgreesWithTheCheckSumOfEachPiece) {
+TEST(StreamCrc, AgreesWithTheChecksumOfEachPiece) {
   VERIFIES("LASSO-GND-021~2");
   test::Generator random(7);
   Stream stream(300);
@@ -73,9 +73,9 @@ TEST(StreamCrc, AgreesWithTheCheckSumOfEachPiece) {
   }
 }
 
-TEST(Headers, ListsAnyPacketsGapsAndCheckSums) {
+TEST(Headers, ListsAnyPacketsGapsAndChecksums) {
   VERIFIES("LASSO-GND-021~2");
-  // Two applications, one with the type of commands; a count that wraps; a gap of 2; a wrong check sum.
+  // Two applications, one with the type of commands; a count that wraps; a gap of 2; a wrong checksum.
   Stream stream;
   add_counts(stream, {0x3FFF});
   add(stream, sent({0x14C0, 5}));
@@ -188,7 +188,7 @@ TEST(Headers, ADamagedCountStartsNothing) {
             "left over\n");
 }
 
-TEST(Headers, IdlePacketsHaveNoSequenceAndNoCheckSum) {
+TEST(Headers, IdlePacketsHaveNoSequenceAndNoChecksum) {
   VERIFIES("LASSO-GND-021~2");
   Stream stream;
   for (int count = 0; count < 20; ++count) {
@@ -240,7 +240,7 @@ TEST(Headers, SkipsAndCountsWhatIsNoPacket) {
   }
 }
 
-TEST(Headers, PacketsWithoutCheckSumsAmongOthers) {
+TEST(Headers, PacketsWithoutChecksumsAmongOthers) {
   VERIFIES("LASSO-GND-021~2");
   Stream stream;
   for (std::uint16_t count = 0; count < 10; ++count) {
@@ -265,7 +265,7 @@ TEST(Headers, WhatIsNoStreamHasNoPackets) {
   EXPECT_TRUE(list_headers(view(Stream(50000, 0))).lines.empty());
 }
 
-// Each false header announces 65,542 bytes: a check sum over each would take 13 GB of them.
+// Each false header announces 65,542 bytes: a checksum over each would take 13 GB of them.
 TEST(Headers, ManyFalseHeadersTakeLinearTime) {
   VERIFIES("LASSO-GND-021~2");
   Stream stream;

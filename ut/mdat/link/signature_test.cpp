@@ -156,7 +156,7 @@ TEST(Signature, DuringATrialBothKeysCountAndNumbersGoOn) {
   EXPECT_EQ(decode(check, early), PacketFault::kNotAuthentic) << "its number is used up";
   EXPECT_EQ(decode(check, after.sign(test::ping(1))), PacketFault::kNone);
   EXPECT_TRUE(check.by_key_on_trial());
-  check.end_key_trial(true);
+  EXPECT_TRUE(check.end_key_trial(true));
   EXPECT_EQ(decode(check, before.sign(test::ping(1))), PacketFault::kNotAuthentic);
   EXPECT_EQ(decode(check, after.sign(test::ping(1))), PacketFault::kNone);
   EXPECT_FALSE(check.try_key(3)) << "numbers grow";
@@ -166,8 +166,9 @@ TEST(Signature, AKeyThatIsGivenUpCountsNoMore) {
   VERIFIES("LASSO-LNK-046~1");
   SignatureCheck check(kKey);
   Signer before(kKey), after(derive_command_key(kKey, 3));
+  EXPECT_FALSE(check.end_key_trial(false)) << "there is none";
   ASSERT_TRUE(check.try_key(3));
-  check.end_key_trial(false);
+  EXPECT_TRUE(check.end_key_trial(false));
   EXPECT_EQ(decode(check, after.sign(test::ping(1))), PacketFault::kNotAuthentic);
   EXPECT_EQ(decode(check, before.sign(test::ping(1))), PacketFault::kNone);
 }
@@ -176,7 +177,7 @@ TEST(Signature, AKeyThatIsGivenUpCountsNoMore) {
 TEST(Signature, TheStateOutlivesARestart) {
   VERIFIES("LASSO-LNK-047~1");
   const std::filesystem::path store = made_store("lasso_signature_state");
-  const auto keep = [&](const SignatureState& state) { save_signature_state(store, state); };
+  const SignatureCheck::Keep keep = keep_in(store);
   Signer before(kKey), after(derive_command_key(kKey, 2));
   Stream last;
   {
@@ -186,12 +187,45 @@ TEST(Signature, TheStateOutlivesARestart) {
     last = after.sign(test::ping(2));
     ASSERT_EQ(decode(check, last), PacketFault::kNone);
     EXPECT_EQ(load_signature_state(store).key, 0U) << "on trial: it does not outlive a restart";
-    check.end_key_trial(true);
+    EXPECT_TRUE(check.end_key_trial(true));
   }
   SignatureCheck check(kKey, load_signature_state(store), keep);
   EXPECT_EQ(decode(check, last), PacketFault::kNotAuthentic);
   EXPECT_EQ(decode(check, before.sign(test::ping(3))), PacketFault::kNotAuthentic);
   EXPECT_EQ(decode(check, after.sign(test::ping(3))), PacketFault::kNone);
+}
+
+// Its store is full when it is confirmed: a restart would begin with the key before.
+TEST(Signature, AKeyThatCannotBeStoredStaysOnTrial) {
+  VERIFIES("LASSO-LNK-052~1");
+  const std::filesystem::path store = made_store("lasso_signature_full");
+  Signer before(kKey), after(derive_command_key(kKey, 2));
+  SignatureCheck check(kKey, {}, keep_in(store));
+  ASSERT_TRUE(check.try_key(2));
+  ASSERT_EQ(decode(check, after.sign(test::ping(1))), PacketFault::kNone);
+  std::filesystem::create_directories(store / "authentication.partial" / "full");
+  ::testing::internal::CaptureStderr();
+  EXPECT_FALSE(check.end_key_trial(true));
+  EXPECT_EQ(decode(check, before.sign(test::ping(2))), PacketFault::kNone) << "both count";
+  EXPECT_EQ(decode(check, after.sign(test::ping(3))), PacketFault::kNone);
+  (void)::testing::internal::GetCapturedStderr();
+  EXPECT_EQ(load_signature_state(store).key, 0U);
+  std::filesystem::remove_all(store / "authentication.partial");
+  EXPECT_TRUE(check.end_key_trial(true));
+  EXPECT_EQ(load_signature_state(store).key, 2U);
+  EXPECT_EQ(decode(check, before.sign(test::ping(4))), PacketFault::kNotAuthentic);
+}
+
+// Whoever stole the key in use cannot have its last number confirmed.
+TEST(Signature, AKeyFarBeyondTheOneInUseIsNotTried) {
+  VERIFIES("LASSO-LNK-053~1");
+  SignatureCheck first(kKey), last(kKey, {UINT32_MAX - 1, 0}), none(kKey, {UINT32_MAX, 0});
+  EXPECT_FALSE(first.try_key(UINT32_MAX));
+  EXPECT_FALSE(first.try_key(65'537));
+  EXPECT_TRUE(first.try_key(65'536));
+  EXPECT_TRUE(last.try_key(UINT32_MAX));
+  EXPECT_FALSE(none.try_key(UINT32_MAX));
+  EXPECT_FALSE(none.try_key(1)) << "numbers do not begin anew";
 }
 
 TEST(Signature, AStateThatNoRunLeftIsRefused) {

@@ -54,10 +54,22 @@ std::string said_of_signature(const std::vector<std::uint8_t>& image, const std:
   return "";
 }
 
+const Key kMaster{std::vector<std::uint8_t>(32, 1), 0};
+
+TEST(Upload, ASignedImageIsSentAsItIs) {
+  VERIFIES("LASSO-LNK-055~1");
+  const std::vector<std::uint8_t> plain = {'3', 'D', 'L', 'I', 0, 0, 0, 9, 0, 0, 0, 16, 1, 2, 3, 4}, right = sign_image(plain, kMaster);
+  EXPECT_EQ(image_to_send(right, std::nullopt), right) << "the link may be authenticated below the component";
+  EXPECT_EQ(image_to_send(plain, std::nullopt), plain);
+  EXPECT_EQ(image_to_send(right, kMaster), right);
+  EXPECT_EQ(image_to_send(plain, kMaster), right);
+  EXPECT_EQ(image_to_send(right, derive_command_key(kMaster, 7)), right);
+}
+
 TEST(Upload, WhatWouldBeRefusedForItsSignatureIsNotSent) {
   VERIFIES("LASSO-LNK-045~1");
-  const Key master{std::vector<std::uint8_t>(32, 1), 0}, other{std::vector<std::uint8_t>(32, 2), 0},
-      derived = derive_command_key(master, 7);
+  const Key& master = kMaster;
+  const Key other{std::vector<std::uint8_t>(32, 2), 0}, derived = derive_command_key(master, 7);
   const std::vector<std::uint8_t> plain = {'3', 'D', 'L', 'I', 0, 0, 0, 9, 0, 0, 0, 16, 1, 2, 3, 4}, right = sign_image(plain, master);
   for (const auto& image : {plain, right}) EXPECT_EQ(said_of_signature(image, std::nullopt), "");
   for (const auto& image : {plain, right}) EXPECT_EQ(said_of_signature(image, master), "") << "signed on the way, or right";

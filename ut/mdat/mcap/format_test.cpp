@@ -8,7 +8,7 @@ namespace lasso::mdat::mcap {
 namespace {
 
 // The check value of the CRC's catalogue, and of a chain.
-TEST(McapFormat, ItsCheckSumIsTheOneOfIeee8023) {
+TEST(McapFormat, ItsChecksumIsTheOneOfIeee8023) {
   VERIFIES("LASSO-REC-001~1");
   EXPECT_EQ(crc32_of("123456789"), 0xCBF43926U);
   EXPECT_EQ(crc32_of("6789", crc32_of("12345")), 0xCBF43926U);

@@ -91,7 +91,7 @@ TEST_F(McapReader, GoesOnAtTheNextChunkBehindADamagedLength) {
   }
 }
 
-// Times that a chunk's head says, and indexes, have no check sum of their own: that of the data shows them.
+// Times that a chunk's head says, and indexes, have no checksum of their own: that of the data shows them.
 TEST_F(McapReader, AnyOtherByteOfTheDataIsTold) {
   VERIFIES("LASSO-REC-006~1");
   write_three_chunks();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <regex>
 
 #include "mdat/missiondb/mission_text.hpp"
 #include "ut/mdat/missiondb/support.hpp"
@@ -34,10 +35,12 @@ class CampaignReaderTest : public ::testing::Test {
       return std::get<L>(law);
     }
   }
-  // One error, that says all of `words`.
+  // One error, with its place and key, that says all of `words`.
   void refuses(const std::string& text, const std::vector<std::string>& words) {
     const std::string message = mission_error_of([&] { static_cast<void>(load(kPlainCampaign + text + "\n")); });
     EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 0) << text << ": " << message;
+    static const std::regex kPlace("(.*/)?m\\.toml:1[0-9]:[1-9][0-9]*: campaign\\.c.*: .*");
+    EXPECT_TRUE(std::regex_match(message, kPlace)) << text << ": " << message;
     for (const std::string& word : words)
       EXPECT_NE(message.find(word), std::string::npos) << text << "\ngot: " << message << "\nexpected: " << word;
   }
@@ -172,6 +175,26 @@ TEST_F(CampaignReaderTest, WrongLawsAreNamedWithPlaceAndRemedy) {
   refuses("truth.spin_degps = [1, 2]", {"a list of 3"});
   refuses("truth.offset_m = { any_direction = 1 }", {"three numbers"});
   refuses("truth.attitude = 'all'", {"expected \"any\""});
+}
+
+// Each law at either end of its key's range, and beyond it.
+TEST_F(CampaignReaderTest, NoLawReachesOutOfTheRangeOfItsKey) {
+  VERIFIES("LASSO-GND-045~1");
+  const auto takes = [&](const std::string& law) { static_cast<void>(load(kPlainCampaign + "truth.tilt_deg = " + law + "\n")); };
+  for (const char* within : {"-180", "180", "{ uniform = [-180, 180] }", "{ normal = [0, 45] }",
+                             "{ normal = [0, 90], within = [-180, 180] }", "{ one_of = [-180, 180] }"})
+    EXPECT_NO_THROW(takes(within)) << within;
+  for (const char* beyond : {"-180.1", "180.1", "{ uniform = [-180.1, 180] }", "{ uniform = [-180, 180.1] }", "{ normal = [-0.1, 45] }",
+                             "{ normal = [0.1, 45] }", "{ normal = [0, 90], within = [-180.1, 180] }",
+                             "{ normal = [0, 90], within = [-180, 180.1] }", "{ one_of = [-180.1, 180] }", "{ one_of = [-180, 180.1] }"})
+    refuses(std::string("truth.tilt_deg = ") + beyond, {"tilt_deg", "180"});
+  refuses("truth.sigma0_m = { log_uniform = [1e-5, 1e9] }", {"sigma0_m.log_uniform[1]: 1e+09", "from "});
+  for (const char* correlated : {"mean = [-179]", "mean = [179]"})
+    refuses(std::string("[[campaign.c.together]]\nkeys = ['truth.tilt_deg']\n") + correlated + "\ncovariance = [[1]]", {"out of range"});
+  for (const char* row : {"-180.1", "180.1"}) {
+    folder_.write("t.csv", std::string("truth.tilt_deg\n0\n") + row + "\n");
+    refuses("[[campaign.c.together]]\ntable = 't.csv'", {"t.csv:3:1", "-180 to 180 deg"});
+  }
 }
 
 TEST_F(CampaignReaderTest, WrongNamesAreNamedWithWhatIsMeant) {

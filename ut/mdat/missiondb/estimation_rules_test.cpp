@@ -50,14 +50,14 @@ TEST_F(EstimationRules, GatesLetGoodPosesPass) {
   expect_edge("tracking.innovation_max = 3.55", "tracking.innovation_max = 3", "tracking.innovation_max: 3", "17.4 % of them");
 }
 
-TEST_F(EstimationRules, WaysToStartAreDifferentAndPossible) {
+TEST_F(EstimationRules, SourcesOfAStartAreDifferentAndPossible) {
   VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
   expect_edge("start.third = 'none'", "start.third = 'handover'", "start.third: \"handover\"", "than that of start.second");
   expect_edge("start.fifth = 'search'", "start.fifth = 'uplink'", "start.fifth: \"uplink\"", "than that of start.first");
   const std::string pose = "tracking.initial.present = true\ntracking.initial.z_m = 5\n";
   expect_edge(pose, pose + "start.fourth = 'none'", "warning: ", "\"apriori\" is none of");
   const std::string apriori = "start.first = 'apriori'\nstart.second = 'none'\nstart.third = 'none'\nstart.fourth = 'none'\n";
-  expect_edge(apriori + pose, apriori, "error: ", "the only way to start");
+  expect_edge(apriori + pose, apriori, "error: ", "the only source of a start");
 }
 
 TEST_F(EstimationRules, TheInitialPoseIsOne) {

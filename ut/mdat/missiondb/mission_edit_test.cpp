@@ -149,7 +149,7 @@ TEST(MissionEdit, TellsWhatIsWrittenBelowATable) {
 }
 
 TEST(MissionDiff, TellsWhatEitherHas) {
-  VERIFIES("LASSO-GND-148~1");
+  VERIFIES("LASSO-GND-148~2");
   const std::vector<EffectiveValue> first{
       {"a", "1", "m", "", ""}, {"", "", "", "", ""}, {"b", "2", "", "", ""}, {"c", "3", "", "", ""}, {"e", "6", "", "as b", ""}};
   const std::vector<EffectiveValue> second{

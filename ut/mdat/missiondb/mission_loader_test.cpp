@@ -192,9 +192,9 @@ TEST_F(Missions, ContradictionsAreRefused) {
   expect_error(kHead + "[tracking.initial]\npresent = true\nz_m = -1\n", "the target is in front");
 }
 
-TEST_F(Missions, WaysToStartAreTriedOnceEach) {
+TEST_F(Missions, SourcesOfAStartAreTriedOnceEach) {
   VERIFIES("LASSO-GND-001~1 LASSO-MOD-133~3");
-  expect_error(kHead + "[start]\nthird = 'handover'\n", "expected another way than that of start.second, or none");
+  expect_error(kHead + "[start]\nthird = 'handover'\n", "expected another source than that of start.second, or none");
   EXPECT_EQ(load(kHead + "[start]\nsecond = 'none'\nthird = 'none'\n").parameters.start_third, 0);
 }
 

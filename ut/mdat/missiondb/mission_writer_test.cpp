@@ -64,7 +64,7 @@ TEST(MissionWriter, WritesAMissionThatLoadsWhateverTheTargetsSize) {
     EXPECT_EQ(source.parameters.initial_present, 1);
     EXPECT_EQ(source.scenarios.count("paper"), 1u);
     EXPECT_EQ(source.parameters.start_check, 1) << "a wrong start is not believed";
-    EXPECT_EQ(source.parameters.start_fifth, 5) << "and the target is searched, by the last way";
+    EXPECT_EQ(source.parameters.start_fifth, 5) << "and the target is searched, as the last source";
     EXPECT_EQ(source.parameters.recover, 1);
   }
 }

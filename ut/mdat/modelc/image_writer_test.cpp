@@ -57,7 +57,7 @@ void expect_every_table(const ModelTables& tables, std::uint32_t count) {
   EXPECT_EQ(write_image(7, 3, preset_parameters(), tables), bytes);
 }
 
-TEST(ImageWriter, DirectoryFindsEveryTableAndCheckSumsHold) {
+TEST(ImageWriter, DirectoryFindsEveryTableAndChecksumsHold) {
   VERIFIES("LASSO-MDL-016~1 LASSO-LNK-050~1");
   ModelTables tables = compile(shapes::sphere(0.3, 10, 12));
   expect_every_table(tables, 19);  // as before there were named frames

@@ -2,18 +2,21 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <cstring>
 
 #include "fsw/geometry/so3.hpp"
 #include "hal_sim/random.hpp"
+#include "mdat/recording/topic_reader.hpp"
+#include "ut/mdat/recording/small_recording.hpp"
 #include "ut/mdat/recording/wall.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso::mdat {
 namespace {
 
-std::vector<RangeSample> random_scan(std::uint64_t seed) {
+std::vector<RangeSample> random_scan(std::uint64_t seed, TimeUs t_us = 5'000'000) {
   sim::Random random(seed);
   std::vector<RangeSample> samples;
   for (int i = 0; i < 50; ++i) {
@@ -24,7 +27,7 @@ std::vector<RangeSample> random_scan(std::uint64_t seed) {
     sample.state = static_cast<RayState>(random.bits() % 4);
     sample.range_m = sample.state == RayState::kHit ? static_cast<float>(random.uniform(1, 9)) : 0;
     sample.sigma_factor = static_cast<float>(random.uniform(1, 3));
-    sample.t_us = 5'000'000 + 100 * i;
+    sample.t_us = t_us + 100 * i;
     samples.push_back(sample);
   }
   return samples;
@@ -43,6 +46,60 @@ TEST(ScanCloud, HoldsEachSampleBitByBit) {
   ASSERT_TRUE(samples_of(scan_cloud(view, test::Wall()), view.t_us, back));
   ASSERT_EQ(back.size(), samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) EXPECT_TRUE(same_bits(samples[i], back[i])) << i;
+}
+
+// A scan as a program finds it that knows the message's definition alone: numbers by the names, places and types of its fields.
+struct ReadCloud {
+  explicit ReadCloud(const mcap::MessageValue& message)
+      : value(message), step(message.at("point_step").get<std::size_t>()), data(message.at("data").get_binary()) {}
+  std::uint32_t word(std::size_t point, const std::string& name, ros::FieldType type) const {
+    for (const mcap::MessageValue& field : value.at("fields")) {
+      if (field.at("name") != name) continue;
+      EXPECT_EQ(field.at("datatype"), static_cast<int>(type)) << name;
+      std::uint32_t word = 0;
+      std::memcpy(&word, data.data() + point * step + field.at("offset").get<std::size_t>(), type == ros::FieldType::kUint8 ? 1 : 4);
+      return word;
+    }
+    ADD_FAILURE() << "no field " << name;
+    return 0;
+  }
+  const mcap::MessageValue& value;
+  std::size_t step;
+  const std::vector<std::uint8_t>& data;
+};
+
+using ScanCloudFile = SmallRecording;
+
+TEST_F(ScanCloudFile, OtherProgramsReadEachSampleBitByBit) {
+  VERIFIES("LASSO-REC-005~1");
+  const TimeUs t_us = 1'764'000'000'000'000;  // in 2025
+  const std::vector<RangeSample> samples = random_scan(12, t_us);
+  const ScanView view{samples, t_us + 2'500, {Quat::Identity(), Vec3(0, 0, 4)}, Twist{}};
+  mcap::Writer writer(file("scan.mcap"), "ros2", "test");
+  const std::uint16_t schema = writer.add_schema(ros::point_cloud().name, "ros2msg", ros::point_cloud().text);
+  writer.write(writer.add_channel("/scan", schema, "cdr"), 0,
+               ros::point_cloud_bytes({view.t_us, "sensor"}, scan_cloud(view, test::Wall())));
+  writer.close();
+  mcap::MessageValue message;
+  (void)read_topics(
+      file("scan.mcap"), {}, [](const TopicName&) { return true; }, [&](const TopicMessage& read) { message = read.value; });
+  const ReadCloud cloud(message);
+  ASSERT_EQ(cloud.data.size(), samples.size() * cloud.step);
+  const mcap::MessageValue& stamp = message.at("header").at("stamp");
+  const TimeUs stamp_us = 1'000'000 * stamp.at("sec").get<TimeUs>() + stamp.at("nanosec").get<TimeUs>() / 1000;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const RangeSample& sample = samples[i];
+    const std::pair<const char*, float> numbers[] = {{"ux", sample.direction[0]},
+                                                     {"uy", sample.direction[1]},
+                                                     {"uz", sample.direction[2]},
+                                                     {"range", sample.range_m},
+                                                     {"sigma_factor", sample.sigma_factor}};
+    for (const auto& [name, number] : numbers)
+      EXPECT_EQ(cloud.word(i, name, ros::FieldType::kFloat32), std::bit_cast<std::uint32_t>(number)) << i << " " << name;
+    EXPECT_EQ(cloud.word(i, "state", ros::FieldType::kUint8), static_cast<std::uint32_t>(sample.state)) << i;
+    const auto offset_us = static_cast<std::int32_t>(cloud.word(i, "offset_us", ros::FieldType::kInt32));
+    EXPECT_EQ(stamp_us + offset_us, sample.t_us) << i;
+  }
 }
 
 // A wall that turns and comes nearer, in closed form: n(t) . (range u - p(t)) = 0.

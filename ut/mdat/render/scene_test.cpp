@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "fsw/geometry/portable_math.hpp"
 #include "mdat/common/errors.hpp"
@@ -87,25 +89,49 @@ TEST(Scene, ShowsAllBodiesInTheLightOfTheOrbit) {
   }
 }
 
+// Of the part of this name; what its material is checked for has to be there.
+const Material& material_of_part(const Scene& scene, const std::string& part) {
+  const auto found = std::find(scene.parts.begin(), scene.parts.end(), part);
+  if (found == scene.parts.end()) throw std::runtime_error("no part " + part);
+  return scene.materials.at(static_cast<std::size_t>(found - scene.parts.begin()));
+}
+
 TEST(Scene, TakesTheMissionsMaterials) {
   VERIFIES("LASSO-PIC-018~1");
   const MissionInput mission = shipped(
       "hubble_tenth.toml", {"material.wing.parts=[\"solar array*\"]", "material.wing.preset=\"mli\"", "material.wing.roughness=0.77",
-                            "material.wing.diffuse=[0.1,0.2,0.3]", "material.wing.specular=[0.4,0.5,0.6]"});
+                            "material.wing.tilt_deg=3", "material.wing.diffuse=[0.1,0.2,0.3]", "material.wing.specular=[0.4,0.5,0.6]",
+                            "material.tube.parts=[\"body\"]", "material.tube.preset=\"white-paint\""});
   SceneRequest request;
   request.materials = {"solar array +y=regolith"};  // the command line has the last word
   const Scene scene = make_scene(mission, request);
-  for (std::size_t i = 0; i < scene.parts.size(); ++i) {
-    if (scene.parts[i] == "solar array +y") {
-      EXPECT_STREQ(scene.materials[i].name, "regolith");
-    }
-    if (scene.parts[i] != "solar array -y") continue;
-    EXPECT_STREQ(scene.materials[i].name, "mli");
-    EXPECT_EQ(scene.materials[i].reflection.roughness, 0.77);
-    EXPECT_EQ(scene.materials[i].reflection.diffuse.matrix(), Vec3(0.1, 0.2, 0.3));
-    EXPECT_EQ(scene.materials[i].reflection.specular.matrix(), Vec3(0.4, 0.5, 0.6));
-    EXPECT_EQ(scene.materials[i].tilt_rad, material_preset("mli")->tilt_rad);
+  EXPECT_STREQ(material_of_part(scene, "solar array +y").name, "regolith");
+  const Scene reported = scene_of_case(mission, scene.setup, scene.seed, "", 0);  // as the report of a run shows it
+  EXPECT_STREQ(material_of_part(reported, "solar array +y").name, "mli");
+  for (const Scene* const shown : {&scene, &reported}) {
+    const Material &wing = material_of_part(*shown, "solar array -y"), &tube = material_of_part(*shown, "body");
+    EXPECT_STREQ(wing.name, "mli");
+    EXPECT_EQ(wing.reflection.roughness, 0.77);
+    EXPECT_NEAR(wing.tilt_rad, 3 * kRadPerDeg, 1e-15);
+    EXPECT_EQ(wing.reflection.diffuse.matrix(), Vec3(0.1, 0.2, 0.3));
+    EXPECT_EQ(wing.reflection.specular.matrix(), Vec3(0.4, 0.5, 0.6));
+    const Material& preset = *material_preset("white-paint");  // of which nothing differs
+    EXPECT_STREQ(tube.name, "white-paint");
+    EXPECT_EQ(tube.reflection.roughness, preset.reflection.roughness);
+    EXPECT_EQ(tube.tilt_rad, preset.tilt_rad);
+    EXPECT_EQ(tube.reflection.diffuse.matrix(), preset.reflection.diffuse.matrix());
   }
+}
+
+TEST(Scene, TakesTheMissionsMaterialsOfOtherNodes) {
+  VERIFIES("LASSO-PIC-018~1");
+  const std::vector<std::string> settings = {"material.other.parts=[\"inspector.bus\"]", "material.other.preset=\"regolith\""};
+  const MissionInput mission = load_mission_input(test::source_folder() / "cfg/missions/rendezvous.toml", settings, "approach");
+  SceneRequest request;
+  request.scenario = "approach";
+  const Scene scene = make_scene(mission, request);
+  EXPECT_STREQ(material_of_part(scene, "inspector.bus").name, "regolith");
+  EXPECT_STRNE(material_of_part(scene, "inspector.antenna").name, "regolith");
 }
 
 TEST(Scene, TakesTheSensorWhoseTurnItIs) {

@@ -77,6 +77,40 @@ TEST_F(DesignTest, AMissionOpensAsItsTextAndWhatItSays) {
   EXPECT_TRUE(json(service_.answer(asked("/api/schema")))["properties"].contains("scan"));
 }
 
+// By no path, and by no link: of each part of the interface that takes a mission's name.
+TEST_F(DesignTest, NoFileButAMissionBelowTheFolderIsOne) {
+  VERIFIES("LASSO-WEB-005~2");
+  const TestFolder elsewhere;
+  std::filesystem::copy_file(file(), elsewhere.path() / "other.toml");
+  std::filesystem::create_directories(place_.path() / "own/b/c/d");
+  std::filesystem::copy_file(file(), place_.path() / "own/b/c/third.toml");
+  for (const char* name : {"own/b/c/d/fourth.toml", "own/notes.txt"}) std::filesystem::copy_file(file(), place_.path() / name);
+  std::filesystem::create_symlink(elsewhere.path() / "other.toml", place_.path() / "own/link.toml");
+  std::filesystem::create_directory_symlink(elsewhere.path(), place_.path() / "own/folder");
+  EXPECT_EQ(service_.answer(asked("/api/mission?id=own/b/c/third.toml")).status, 200U);
+  const std::string text = bytes_of_file(file());
+  const DesignTestJson body = {{"text", text}, {"digest", "00"}, {"name", "copy"}, {"scenario", "paper"}, {"set", {"scan.points=512"}}};
+  for (const std::string& id :
+       {std::string("own/link.toml"), std::string("own/folder/other.toml"), std::string("own/notes.txt"),
+        std::string("own/b/c/d/fourth.toml"), std::string("../other.toml"), std::string("/etc/passwd"), std::string(),
+        std::string("own/missions/../missions/hubble_tenth.toml"), (elsewhere.path() / "other.toml").string()}) {
+    EXPECT_EQ(service_.answer(asked("/api/mission?id=" + id)).status, 404U) << id;
+    for (const char* what : {"look", "set", "save", "copy", "preview", "surface"})
+      EXPECT_EQ(act(what, body, id).status, 404U) << what << " " << id;
+  }
+  EXPECT_FALSE(std::filesystem::exists(place_.path() / "copy"));
+}
+
+TEST_F(DesignTest, ARecordingThatIsServedAloneComesWithoutItsNeighboursMissions) {
+  VERIFIES("LASSO-WEB-005~2");
+  (void)SmallRecording{}.write(place_.path() / "one.mcap");
+  Folder single(place_.path() / "one.mcap");
+  const Live live(single, "abc");
+  for (const LiveMission& mission : live.missions()) EXPECT_TRUE(mission.shipped) << mission.id;
+  EXPECT_THROW((void)live.mission(kOwn), Refusal);
+  EXPECT_EQ(std::filesystem::canonical(live_.mission(kOwn).file), std::filesystem::canonical(file())) << "of the folder it is one";
+}
+
 TEST_F(DesignTest, AValueIsSetInTheTextAndAProblemSaysWhere) {
   VERIFIES("LASSO-WEB-026~2");
   const std::string text = opened()["text"];

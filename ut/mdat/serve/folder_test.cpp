@@ -22,7 +22,7 @@ unsigned status_of(Folder& folder, const std::string& id) {
 }
 
 TEST(ServedFolder, ShowsRecordingsBelowIt) {
-  VERIFIES("LASSO-WEB-005~1");
+  VERIFIES("LASSO-WEB-005~2");
   const TestFolder place;
   fs::create_directories(place.path() / "b/c");
   (void)SmallRecording{}.write(place.path() / "b/c/two.mcap");
@@ -36,10 +36,23 @@ TEST(ServedFolder, ShowsRecordingsBelowIt) {
   EXPECT_FALSE(entries[1].open);
   EXPECT_EQ(folder.recording(entries[1].id)->frames().size(), 6U);
   EXPECT_TRUE(folder.list()[1].open);
+  EXPECT_EQ(status_of(folder, folder.id_of(place.path() / "notes.txt")), 404U);
+}
+
+TEST(ServedFolder, ReachesThreeFoldersDown) {
+  VERIFIES("LASSO-WEB-005~2");
+  const TestFolder place;
+  fs::create_directories(place.path() / "a/b/c/d");
+  for (const char* name : {"a/b/c/third.mcap", "a/b/c/d/fourth.mcap"}) (void)SmallRecording{}.write(place.path() / name);
+  Folder folder(place.path());
+  ASSERT_EQ(folder.list().size(), 1U);
+  EXPECT_EQ(folder.list()[0].name, "a/b/c/third.mcap");
+  EXPECT_EQ(status_of(folder, folder.id_of(place.path() / "a/b/c/third.mcap")), 200U);
+  EXPECT_EQ(status_of(folder, folder.id_of(place.path() / "a/b/c/d/fourth.mcap")), 404U);
 }
 
 TEST(ServedFolder, NothingOutsideIsServed) {
-  VERIFIES("LASSO-WEB-005~1");
+  VERIFIES("LASSO-WEB-005~2");
   const TestFolder place;
   fs::create_directories(place.path() / "in");
   (void)SmallRecording{}.write(place.path() / "out.mcap");
@@ -60,7 +73,7 @@ TEST(ServedFolder, NothingOutsideIsServed) {
 
 // A link that is turned elsewhere after its recording was opened leads nowhere.
 TEST(ServedFolder, ALinkThatIsTurnedOutwardsIsRefused) {
-  VERIFIES("LASSO-WEB-005~1");
+  VERIFIES("LASSO-WEB-005~2");
   const TestFolder place;
   fs::create_directories(place.path() / "in");
   (void)SmallRecording{}.write(place.path() / "out.mcap");
@@ -74,7 +87,7 @@ TEST(ServedFolder, ALinkThatIsTurnedOutwardsIsRefused) {
 }
 
 TEST(ServedFolder, AFileIsAFolderOfOne) {
-  VERIFIES("LASSO-WEB-005~1");
+  VERIFIES("LASSO-WEB-005~2");
   const TestFolder place;
   (void)SmallRecording{}.write(place.path() / "one.mcap");
   (void)SmallRecording{}.write(place.path() / "two.mcap");

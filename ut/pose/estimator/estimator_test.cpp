@@ -185,7 +185,7 @@ TEST_F(EstimatorTest, SaysWhatItHasWhenTheIterationsEnd) {
 
 TEST_F(EstimatorTest, AWideStartOfFewReturnsIsANarrowOne) {
   VERIFIES("LASSO-REG-005~1 LASSO-REG-007~1");
-  scan_.side = 4;  // too few for the far way
+  scan_.side = 4;  // too few for coarse alignment
   scan_.outliers = 0.2;
   parameters().inliers_min = 12;
   for (int i = 0; i < 5; ++i) {

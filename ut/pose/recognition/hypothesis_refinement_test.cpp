@@ -12,7 +12,7 @@ namespace {
 class SettleTest : public test::SearchFixture {
  protected:
   // From a start that is off; attempts are counted.
-  RefinedHypothesis settle(const Pose& start, const ScanSubset& subset) {
+  RefinedHypothesis refine(const Pose& start, const ScanSubset& subset) {
     HypothesisRefiner settler;
     settler.begin(start, start);
     attempts_ = 1;
@@ -33,7 +33,7 @@ TEST_F(SettleTest, AStartNearTheTruthTakesOneAttempt) {
   VERIFIES("LASSO-MOD-111~1");
   scan();
   const auto subset = make_evidence();
-  const RefinedHypothesis refined = settle(off(0.005, 0.002), *subset);
+  const RefinedHypothesis refined = refine(off(0.005, 0.002), *subset);
   EXPECT_TRUE(is_right(refined));
   EXPECT_LT(refined.fit.disagreement(), 0.02);
   EXPECT_EQ(attempts_, 1);
@@ -47,7 +47,7 @@ TEST_F(SettleTest, ARoughStartMayTakeMore) {
     scan_.T_sensor_target = test::random_box_pose(random_);
     scan();
     const auto subset = make_evidence();
-    right += is_right(settle(off(0.03, 0.01), *subset)) ? 1 : 0;
+    right += is_right(refine(off(0.03, 0.01), *subset)) ? 1 : 0;
     EXPECT_LE(attempts_, 4);
   }
   EXPECT_GE(right, 8);
@@ -63,7 +63,7 @@ TEST_F(SettleTest, WhatCannotBeExplainedTakesAllAttemptsAndKeepsTheBest) {
   once.begin(inverse(turned), inverse(turned));
   std::uint32_t work = 0;
   EXPECT_TRUE(once.step(mission_, *subset, kAnyScore, *workspace_, work));
-  const RefinedHypothesis refined = settle(inverse(turned), *subset);
+  const RefinedHypothesis refined = refine(inverse(turned), *subset);
   EXPECT_EQ(attempts_, 4);
   EXPECT_LE(refined.fit.score(), once.best().fit.score());
   EXPECT_GT(refined.fit.disagreement(), 0.02);

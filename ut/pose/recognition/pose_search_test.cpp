@@ -144,7 +144,8 @@ TEST_F(SearchTest, IsJoinedByFurtherScansWhileWorkIsLeft) {
   EXPECT_EQ(search(10), Status::kBadOrder);
 }
 
-// Registrations and sways that are begun are left, too. What is always done goes on: the evidence, the finalists, the best one's twins.
+// Registrations and robust refinements that are begun are left, too. What is always done goes on: the scan subset, the finalists, the best
+// one's symmetric images.
 TEST_F(SearchTest, EndsAStepAfterItsWorkIsUsedUp) {
   VERIFIES("LASSO-MOD-117~1");
   scan_.model.half = Vec3(0.09, 0.42, 0.05);  // all poses leave something unexplained

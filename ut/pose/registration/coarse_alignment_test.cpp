@@ -15,7 +15,7 @@ class AfarTest : public test::PoseFixture {
  protected:
   AfarTest() { scan_.sigma_m = 1e-3; }
 
-  // What is off, in rotation and translation, after the far way and a look from a start that is up to so much off.
+  // What is off, in rotation and translation, after coarse alignment and a look from a start that is up to so much off.
   Vec6 error_from(double rotation_rad, double shift_m) {
     const Pose start = inverse(test::disturb(scan_.T_sensor_target, rotation_rad, shift_m, random_));
     return error_of(register_first(mission_, align_coarsely(mission_, start, *workspace_), *workspace_).T_target_sensor);

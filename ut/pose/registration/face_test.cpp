@@ -64,7 +64,7 @@ TEST_F(FaceTest, AFaceThatSlidIsBroughtBackByItsOutline) {
   (void)count_brought_back(0.1, 0.08);
 }
 
-// The far way has centred the face before the outline is asked, and a start has nothing else.
+// Coarse alignment has centred the face before the outline is asked, and a start has nothing else.
 TEST_F(FaceTest, ARoughStartBesideAFaceIsBroughtBackByItsOutline) {
   VERIFIES("LASSO-REG-022~3");
   scan_.side = 44;
