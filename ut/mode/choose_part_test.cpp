@@ -91,7 +91,8 @@ TEST_F(ChoosePartTest, TakesThePartThatTellsMostOfTheWeakestDirection) {
     const double gain[2] = {gain_of(information[0], direction, C), gain_of(information[1], direction, C)};
     const PartNumber part = choose();
     ASSERT_NE(part, kWhole);
-    if (std::fabs(gain[0] - gain[1]) < 0.1 * std::max(gain[0], gain[1])) continue;
+    // The rays of a raster and those of the pattern tell the same to a tenth.
+    if (std::fabs(gain[0] - gain[1]) < 0.15 * std::max(gain[0], gain[1])) continue;
     ++decided[part];
     EXPECT_EQ(part, gain[0] > gain[1] ? 1 : 2) << i << " " << gain[0] << " " << gain[1];
   }

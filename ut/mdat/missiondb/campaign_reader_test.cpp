@@ -188,7 +188,7 @@ TEST_F(CampaignReaderTest, NoLawReachesOutOfTheRangeOfItsKey) {
                              "{ normal = [0.1, 45] }", "{ normal = [0, 90], within = [-180.1, 180] }",
                              "{ normal = [0, 90], within = [-180, 180.1] }", "{ one_of = [-180.1, 180] }", "{ one_of = [-180, 180.1] }"})
     refuses(std::string("truth.tilt_deg = ") + beyond, {"tilt_deg", "180"});
-  refuses("truth.sigma0_m = { log_uniform = [1e-5, 1e9] }", {"sigma0_m.log_uniform[1]: 1e+09", "from "});
+  refuses("truth.sigma0_m = { log_uniform = [1e-5, 1e9] }", {"sigma0_m.log_uniform[1]: 1000000000.0", "from "});
   for (const char* correlated : {"mean = [-179]", "mean = [179]"})
     refuses(std::string("[[campaign.c.together]]\nkeys = ['truth.tilt_deg']\n") + correlated + "\ncovariance = [[1]]", {"out of range"});
   for (const char* row : {"-180.1", "180.1"}) {
