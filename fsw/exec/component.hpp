@@ -89,7 +89,8 @@ class Component {
   Status start_tracking(const Pose& T_sensor_target, const Twist& rates, TimeUs t_us);
   // Standby, bearing, searching, reacquiring, tracking (from short_range), short_range (from tracking) or safe, at the next boundary; until
   // then nothing takes the place of safe. What is refused changes nothing. Tracking within short_range.enter_m, or short_range beyond
-  // leave_m, is not left for the range before the range has once been the mode's (TrackState::range_awaited).
+  // leave_m, is not left for the range before the range has once been the mode's (TrackState::range_awaited), or a start or reacquiring has
+  // taken its place.
   ModeRefusal command_mode(TrackingMode mode) { return modes_.command_mode(mode); }
   // Standby. kBadOrder before begin().
   Status stop_tracking();

@@ -190,7 +190,7 @@ void change_mode(ModeEvent event, TrackState& state) {
   state.check = StartCheck{};
   state.interrupts = false;
   if (next != TrackingMode::kCoasting) state.missed = 0;
-  if (next == TrackingMode::kStarting) state.range_awaited = false;
+  if (properties(next).confirms) state.range_awaited = false;  // where the mode was is of no account to the track that is found
   if (event == ModeEvent::kNear || event == ModeEvent::kFar) state.range_awaited = true;
   if (properties(next).by_parts) state.parts = PartsState{};
   if (properties(next).searches) ++state.searches;

@@ -53,7 +53,8 @@ struct TrackState {
   std::uint32_t searches = 0;  // that were begun, those of checks too
   PartsState parts;            // of the mode that looks at parts
   // Since near or far, by range or by command, no valid pose has been where the mode now is for: within short_range.leave_m in
-  // short_range, not within short_range.enter_m otherwise. Until one is, the range does not change the mode back.
+  // short_range, not within short_range.enter_m otherwise. Until one is, the range does not change the mode back. A track that starts, or
+  // is reacquired, goes by its range again.
   bool range_awaited = false;
 };
 

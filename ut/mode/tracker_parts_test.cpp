@@ -130,6 +130,20 @@ TEST_F(TrackerPartsTest, ATrackThatStartsAnewGoesByTheRange) {
   EXPECT_FALSE(state_.range_awaited);
 }
 
+// Whether it was the range or a command that led to the mode in which the target was lost.
+TEST_F(TrackerPartsTest, ATrackThatIsReacquiredGoesByTheRange) {
+  VERIFIES("LASSO-MOD-164~1 LASSO-MOD-171~1");
+  for (const bool commanded : {false, true}) {
+    come_near();
+    if (commanded) change_mode(E::kFar, state_);
+    ASSERT_TRUE(state_.range_awaited);
+    change_mode(E::kReacquire, state_);
+    ASSERT_EQ(track(2).after.mode, M::kTracking) << commanded;
+    EXPECT_EQ(track(3).event, E::kNear) << commanded;
+    EXPECT_EQ(state_.mode, M::kShortRange) << commanded;
+  }
+}
+
 TEST_F(TrackerPartsTest, StartingAndCoastingAreNotCutShort) {
   VERIFIES("LASSO-MOD-171~1");
   start(small_error());
