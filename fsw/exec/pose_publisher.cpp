@@ -16,7 +16,7 @@ void PosePublisher::send_pose(const TrackStep& step, TimeUs now_us) {
   PoseTelemetry report = make_report(images_.view(0).mission, step, scan.plan, now_us);
   report.sensor = scan.sensor.sensor;
   report.sensor_reason = static_cast<std::uint8_t>(scan.sensor.reason);
-  report.sensors_failed = scans_.chooser().failed(scan.scan_id);
+  report.sensors_failed = scans_.chooser().failed(scan.active ? scan.scan_id : executive_.frame());
   if (!step.registration.valid()) ++invalid_frames_;
   if (!telemetry_.housekeeping().due(kPoseStructureId, true)) return modes_.drop_changes();
   set_counters(report);

@@ -149,6 +149,22 @@ TEST_F(ScanSchedulerTest, AFailureIsToldOnceAndSoIsItsEnd) {
   EXPECT_EQ(failures_told(60), expected);
 }
 
+// In frames without a scan, too, the packet says who rests at present.
+TEST_F(ScanSchedulerTest, ASensorThatHasRestedIsNotToldAsFailedInModeSafe) {
+  VERIFIES("LASSO-SNS-044~1 LASSO-SNS-048~1");
+  begin(scene_at(2.4, 0));
+  run(6);
+  for (std::uint32_t scan = 6; scan < 9; ++scan) near_->lost.insert(scan);
+  run(5);
+  ASSERT_EQ(component_->command_mode(M::kSafe), ModeRefusal::kNone);
+  EXPECT_EQ(run(5).back().sensors_failed, 2) << "it rests";
+  run(60);
+  const std::vector<PoseTelemetry> later = run(2);
+  ASSERT_EQ(later.size(), 2U);
+  EXPECT_EQ(static_cast<M>(later.back().mode), M::kSafe);
+  EXPECT_EQ(later.back().sensors_failed, 0) << "it may take scans again";
+}
+
 TEST_F(ScanSchedulerTest, ASensorThatFailsIsReplacedAndTold) {
   VERIFIES("LASSO-SNS-044~1 LASSO-SNS-048~1");
   begin(scene_at(2.4, 0));
@@ -186,7 +202,9 @@ TEST_F(ScanSchedulerTest, AScanThatCannotBePlannedIsNoFaultOfTheSensor) {
   test::BoxScene scene = scene_at(1.5, 0);
   scene.at_zero.p.x() = 2;  // beside both fields
   begin(scene);
-  for (const PoseTelemetry& t : run(12)) {
+  const std::vector<PoseTelemetry> reports = run(12);
+  ASSERT_EQ(reports.size(), 10U);
+  for (const PoseTelemetry& t : reports) {
     EXPECT_EQ(t.sensors_failed, 0);
     EXPECT_EQ(t.sensor, 1);
     EXPECT_EQ(t.valid, 0);
@@ -218,7 +236,9 @@ TEST_F(ScanSchedulerTest, ASearchKeepsItsSensor) {
   run(3);
   ASSERT_EQ(component_->command_mode(M::kSearching), ModeRefusal::kNone);
   run(3);
-  for (const PoseTelemetry& t : run(6)) {
+  const std::vector<PoseTelemetry> reports = run(6);
+  ASSERT_EQ(reports.size(), 6U);
+  for (const PoseTelemetry& t : reports) {
     EXPECT_EQ(static_cast<S>(t.sensor_reason), S::kBusy);
     EXPECT_EQ(t.sensor, 1);
   }
