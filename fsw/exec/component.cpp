@@ -87,9 +87,9 @@ void Component::run_estimation() {
 void Component::run_slot(TimeUs now_us) {
   const Running running(identity_);
   invariant(executive_.begun(), "slot before begin");
+  telemetry_.events().set_time(now_us);
   if (executive_.jumped(now_us)) follow_jump(now_us);
   executive_.note_start(now_us);
-  telemetry_.events().set_time(now_us);
   const std::uint32_t slot = executive_.next_slot();
   for (const SlotRow& row : slot_table()) {
     if (is_due(row, slot)) run_task(row.task, now_us);
@@ -180,6 +180,7 @@ void Component::publish_states(TimeUs now_us) {
 void Component::follow_jump(TimeUs now_us) {
   modes_.follow_jump(executive_.follow_jump(now_us));
   scans_.drop_scans();
+  estimation_.drop();
   telemetry_.downlink().forget_time();
   health_.note_clock_jump();
 }

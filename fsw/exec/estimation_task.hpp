@@ -36,6 +36,8 @@ class EstimationTask {
   // True, with the step in `step`, when the job is done in time. False when there is none, or when it is late: its result is then
   // dropped whole whenever it comes, and the task stays busy until a later collect() finds it done.
   bool collect(TrackStep& step);
+  // The clock has jumped: the result of the job, if there is one, is dropped as that of a late one is.
+  void drop() { dropped_ = !idle(); }
   // Where the scan that is planned from the collected step is to look besides its pattern. Acquisition thread, until the next submit().
   const AimedRays& aimed() const { return aimed_; }
   // And at which part of the target. Likewise.

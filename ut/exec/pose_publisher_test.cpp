@@ -78,6 +78,34 @@ TEST(PosePublisher, PosesBetweenNamedFramesAreSentWhereTheImageNamesThem) {
   EXPECT_EQ(named(scene).size(), 2U);
 }
 
+// The estimate was done when the clock jumped: its pose, of the old clock's time, is none of the frame's.
+TEST(PosePublisher, AnEstimateOfBeforeAJumpIsNotReported) {
+  VERIFIES("LASSO-LNK-050~1 LASSO-HLT-006~1");
+  const test::BoxScene truth = test::default_scene();
+  test::ComponentScene scene(
+      truth, test::make_image(test::box_parameters(truth), test::with_frames(test::make_box_tables(truth.boxes()), {NamedFrame{}})));
+  scene.begin();
+  Component& component = *scene.component;
+  for (int frame = 0; frame < 8; ++frame) test::run_frame(component);
+  component.run_slot(component.next_slot_us());
+  component.run_estimation();
+  const Stream ask = test::of_structure(CommandKind::kReportStructure, kNamedPoseStructureId, 0);
+  component.receive(test::view(ask), component.next_slot_us());
+  component.run_slot(component.next_slot_us() + 60'000'000);
+  test::run_frame(component);
+  component.run_slot(component.next_slot_us());
+  std::vector<NamedPoseTelemetry> poses;
+  for (const Packet& packet : test::packets_of(test::telemetry_of(component))) {
+    if (!packet.is(3, 25) || packet.data[1] != kNamedPoseStructureId) continue;
+    ByteReader in(test::view(packet.data));
+    in.u16();
+    codec_of(named_pose_rows::kRows).read(in, poses.emplace_back());
+  }
+  ASSERT_EQ(poses.size(), 1U) << "it was asked for";
+  EXPECT_EQ(poses[0].valid, 0);
+  EXPECT_EQ(poses[0].t_measurement_us, 0) << "no scan's";
+}
+
 // What is reported of its diagonal is what the packet pose of the same frame states as sigmas.
 TEST(PosePublisher, TheFiltersCovarianceIsSentOnRequest) {
   VERIFIES("LASSO-LNK-039~1");
