@@ -140,7 +140,8 @@ void ModeManager::refuse_start(InitialPoseSource source, StartRefusal refusal) {
   context_.telemetry.raise<EventId::kStartRefused>(source, refusal);
 }
 
-// At most four at a boundary (a scan's, a fault's, a command's, a start's), and a packet takes four: there is always room.
+// At most four at a boundary (a scan's, an image's or a fault's, a command's, a start's), and a packet takes four: there is always room. A
+// fault that makes safe leaves no command.
 void ModeManager::note_change(const ModeChange& change) {
   context_.telemetry.raise<EventId::kModeChanged>(change.from, change.event, change.to);
   invariant(changes_.push_back(change), "more changes of the mode than can wait for a packet");
@@ -226,18 +227,26 @@ void ModeManager::forget_before_trial() {
   renew(before_trial_, [] { return TrackState{}; });
 }
 
+// What was offered is of another time, or of another target. A start that waits for the boundary is refused, as all that comes too late.
 void ModeManager::forget_offers() {
+  if (request_.kind == Request::Kind::kStart) {
+    refuse_start(request_.source, StartRefusal::kTooOld);
+    drop_request();
+  }
   renew(sources_, [] { return InitialPoseSources{}; });
 }
 
 void ModeManager::use_sensor(SensorNumber sensor) {
-  if (track_.sensor != sensor) forget_common_errors(track_.filter);
+  if (track_.sensor == sensor) return;
+  forget_common_errors(track_.filter);
+  forget_common_errors(former_);
   track_.sensor = sensor;
 }
 
 void ModeManager::follow_jump(DurationUs moved_us) {
   track_.filter.t_us += moved_us;
-  track_.check = StartCheck{};  // its scan is of another time
+  track_.check = StartCheck{};                              // its scan is of another time
+  if (properties(track_.mode).searches) ++track_.searches;  // so are those that the search has joined: it begins anew
   former_.t_us += moved_us;
   track_.bearing.t_us += moved_us;
   forget_before_trial();
@@ -252,9 +261,11 @@ void ModeManager::take_over_track(bool kept, bool on_trial) {
   if (!kept) leave_target();
 }
 
-// The mode is its own: a track that was lost is looked for again.
+// The mode is its own: a track that was lost is looked for again. In bearing a start is awaited, and nothing leads back to the prediction.
 void ModeManager::restore_track() {
+  if (properties(track_.mode).full_field) return;
   track_.filter = before_trial_.filter;
+  track_.sensor = before_trial_.sensor;
   track_.parts = before_trial_.parts;
   track_.missed = 0;
   if (track_.mode == TrackingMode::kLost) take(ModeEvent::kReacquire);

@@ -39,15 +39,18 @@ class ModeManager {
   // The boundary's end: the mode is kept in its copies.
   void keep_mode() { mode_.set(track_.mode); }
 
-  // The scan that is handed to the estimate is this sensor's.
+  // The scan that is handed to the estimate is this sensor's. Errors that track, and interrupted track, have in common with the scans of
+  // another one are then errors of their own.
   void use_sensor(SensorNumber sensor);
-  // The clock has jumped by `moved_us`: states keep their age, and offers and checks of another time are forgotten.
+  // The clock has jumped by `moved_us`: states keep their age. Offers and checks of another time are forgotten, a search begins anew, and a
+  // start that waits for the boundary is refused as kTooOld.
   void follow_jump(DurationUs moved_us);
 
   // Another image becomes active. One that keeps the target takes over the track, which is remembered while the image is `on_trial`;
-  // another one starts from nothing.
+  // another one starts from nothing, and a start that waits for the boundary, which is of the target before, is refused as kTooOld.
   void take_over_track(bool kept, bool on_trial);
-  // The image before becomes active again: the track goes on from what was remembered. What was commanded since has made it forgotten.
+  // The image before becomes active again: the track goes on from what was remembered (remembers_track()), but not from mode bearing. What
+  // was commanded since has made it forgotten.
   void restore_track();
   bool remembers_track() const { return before_trial_.filter.initialised; }
 

@@ -84,7 +84,7 @@ inline constexpr Choice kStartRefusals[] = {
   {"not_unit", "the quaternion is not of unit length", "normalise it"},
   {"bad_covariance", "not symmetric, or not of variances and correlations", "correct it"},
   {"from_future", "stated later than the frame in which it would start", "compare the clocks"},
-  {"too_old", "stated longer ago than start.age_max_s", "send a fresh one"},
+  {"too_old", "stated longer ago than start.age_max_s; or before the clock jumped, or before another target's image became active", "send a fresh one"},
   {"too_fast", "its rates since then have no meaning, move the target too far within a scan, or are above 60 rad/s or 500 m/s", "send a fresh one, or correct its rates"},
   {"out_of_reach", "not in front of the sensor, or wholly outside the ranges that it measures", "compare frames and units with T_sensor_target in metres"},
   {"not_at_bearing", "not where the bearing sees the target", "compare it with the item bearing"},

@@ -32,7 +32,7 @@ enum class StartRefusal : std::uint8_t {
   kNotUnit = 4,        // the quaternion is not of unit length
   kBadCovariance = 5,  // not symmetric, not of variances and correlations, or so wide that it tells nothing
   kFromFuture = 6,     // stated later than the frame in which it would start
-  kTooOld = 7,         // stated longer ago than start.age_max_s
+  kTooOld = 7,         // stated longer ago than start.age_max_s; or before the clock jumped, or another target's image became active
   kTooFast = 8,        // its rates since then have no meaning, or move the target too far within a scan
   kOutOfReach = 9,     // not in front of the sensor, or wholly outside the ranges that it measures
   kNotAtBearing = 10,  // not where the bearing sees the target
