@@ -19,8 +19,8 @@ class ClockTie {
   }
   void forget() { known_ = false; }
 
-  // May a scan that starts at t_us be timed by it?
-  bool serves(TimeUs t_us) const { return known_ && t_us - at_us_ < kTieUs; }
+  // May a scan that starts at t_us be timed by it? Not one from farther before the tie than the tolerance: our own clock was set back then.
+  bool serves(TimeUs t_us) const { return known_ && t_us - at_us_ >= -kClockToleranceUs && t_us - at_us_ < kTieUs; }
   // Has the camera's clock gone otherwise than ours since they were tied? Modulo its wrap, and with a thousandth of drift.
   bool jumped(std::uint32_t clock_us, TimeUs t_us) const {
     if (!known_) return false;

@@ -135,6 +135,7 @@ TEST_F(LcsDriver, ACameraThatHasNotSaidWhichItIsGivesNoPoint) {
 }
 
 TEST_F(LcsDriver, AScanThatTheCameraEndsIsLost) {
+  VERIFIES("LASSO-LCS-012~1");
   begin(small_plan());
   camera.say(ScanEnd{tag_of(0x301), 12, false});
   EXPECT_EQ(poll().status, Status::kTruncated);
