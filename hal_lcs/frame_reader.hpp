@@ -1,4 +1,4 @@
-// Frames from a line's ring, as far as a budget of bytes goes.
+// Frames from a line's ring of kBytes, as far as a budget of bytes goes: a line that never falls silent keeps no caller for longer.
 #pragma once
 
 #include <cstddef>

@@ -47,7 +47,7 @@ class Flight final : public Watchdog {
   bool probed(std::uint64_t now) { return probe_.answers(now); }
   // Of the lines' interrupt: when it began, what camera and ground took of it; whether it does not end, and is masked until the next slot.
   void note_lines(std::uint64_t begun, std::uint64_t ticks, bool masked) {
-    measured_.line_ticks += ticks;
+    measured_.line_ticks = measured_.line_ticks + ticks;
     probe_.ask(begun);
     if (masked) measured_.lines_masked = measured_.lines_masked + 1;
   }
@@ -58,15 +58,15 @@ class Flight final : public Watchdog {
   }
 
  private:
-  static constexpr DurationUs kHungUs = 2'000'000;       // a slot that takes longer hangs
-  static constexpr std::uint32_t kUnfedSlots = 20 * 15;  // slots without feed(): estimation hangs
-  static constexpr std::uint32_t kSettledFrames = 900;   // frames with feed(): the board does well, three minutes of 200 ms
+  static constexpr DurationUs kHungUs = 2'000'000;                   // a slot that takes longer hangs
+  static constexpr std::uint32_t kUnfedSlots = 15 * kSlotsPerFrame;  // slots without feed(): estimation hangs
+  static constexpr std::uint32_t kSettledFrames = 900;               // frames with feed(): the board does well, three minutes of 200 ms
 
   // What the rig is told of the slots and estimates.
   struct Measured {
     std::uint32_t slot = 0;
-    std::uint64_t late_ticks = 0, slot_ticks = 0, line_ticks = 0;
-    volatile std::uint64_t foreground_ticks = 0;
+    std::uint64_t late_ticks = 0, slot_ticks = 0;
+    volatile std::uint64_t foreground_ticks = 0, line_ticks = 0;  // counted by what interrupts their readers
     volatile std::uint32_t estimate_ticks = 0, idle_ticks = 0, lines_masked = 0;
     std::uint32_t packets_dropped = 0;
   };

@@ -133,7 +133,7 @@ ServiceRefusal CommandServices::confirm_key(std::uint32_t number) {
   return refusal;
 }
 
-// The laser goes out now, and whatever the board takes to restart.
+// The laser goes out now: the board may take some frames to restart.
 void CommandServices::reset() {
   context_.interlocks.inhibit_laser();
   reset_asked_ = true;

@@ -1,4 +1,5 @@
-// What several parts of the component work with: time, images, telemetry, health, interlocks and scans.
+// What several parts of the component work with: time, images, telemetry, health, interlocks and scans. Component makes it of its own
+// members; it owns none of them, and a test can make it of as many as it needs (ut/exec/mode_manager_alone_test.cpp).
 #pragma once
 
 #include "fsw/exec/executive.hpp"

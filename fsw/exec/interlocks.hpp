@@ -25,14 +25,14 @@ class Interlocks {
   // A frame ends. True: what was armed has just expired.
   bool pass_boundary();
 
-  // All sensors are told.
+  // Every sensor is permitted to light its laser, and an event says so. Who may ask for it is the caller's to know.
   void enable_laser();
-  // And nothing stays armed: what is armed may be the laser.
+  // Every sensor is inhibited at once, and nothing stays armed: it may be the laser's enabling that is. An event, unless it was inhibited.
   void inhibit_laser();
   // A permission that no two of its copies state is none.
   bool laser_enabled() const;
-  // Before anybody asks for the permission: do its copies agree? False: they are made alike, and where no two agreed the laser is
-  // inhibited.
+  // A boundary, before anybody asks for the permission: do its copies agree? False: they have been made alike, and where no two agreed the
+  // laser is inhibited, without an event but that of the caller's fault.
   bool check_laser();
 
  private:

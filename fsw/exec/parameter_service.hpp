@@ -20,12 +20,18 @@ class ParameterService {
   // The board's, which outlives it.
   void use_store(Store& store) { store_ = &store; }
 
-  // The commands of service 20, and those that save.
+  // The commands of service 20, and those that save; parameters by their id, values in the unit of their row. What is refused changes
+  // nothing.
+  // From the next boundary on: kNoSuchParameter, kFixedParameter, kOutOfLimits, kInconsistent (with the others as they are then).
   ServiceRefusal set(const ParameterCommand& command);
+  // Sends the value that holds from the next boundary on, and the image's own: kNoSuchParameter.
   ServiceRefusal report(std::uint16_t parameter, TimeUs now_us);
+  // From the next boundary on all values are the image's.
   void revert();
+  // All changes become one record of the store: kNoStore, kStoreFailed.
   ServiceRefusal save();
-  // Reported where something was saved, whether it holds or not.
+  // That record takes the place of all changes: kNoStore, kNothingStored, and ParameterArea::restore()'s. Where there is a record, an event
+  // says what became of it.
   ServiceRefusal restore();
 
   // The active image is another one, or was repaired: what was changed has to be made of it anew.

@@ -34,16 +34,18 @@ class ScanScheduler {
                 HealthMonitor& health)
       : acquisition_(acquisition), executive_(executive), images_(images), telemetry_(telemetry), health_(health) {}
 
-  // A boundary, in this order. The estimate of the scan before has ended, in time (or `estimation` is null): the next scan looks where that
-  // estimate says.
+  // A boundary, in this order. The next scan looks where the estimate that has just been collected says: at its part and aimed rays. Null
+  // where none was in time: at the whole target, by the pattern alone.
   void follow_estimate(const EstimationTask* estimation);
   // Chooses the sensor of the next scan. What was planned for the scans of another sensor counts no more.
   void choose_sensor(const TrackState& track);
-  // Ends the scan that was acquired: from now on it is the estimated one, active where the mode still scans. What its sensor gave.
+  // Ends the scan that was acquired, and returns what its sensor gave: from now on it is the estimated one, active where the mode still
+  // scans. One that is active and not usable counts as lost.
   ScanVerdict finish(TrackingMode mode);
-  // The job of estimating it, from this track; of a scan that was lost where it is not `usable`.
+  // The job of estimating it, from this track. Where it is not `usable` the job has no scan, and the filter predicts.
   EstimationJob job(const TrackState& track, bool usable) const;
-  // Starts the next scan, if the mode scans. As the executive's slot may be late, it is the present time that the sensor is told.
+  // Plans and starts the next scan, if the mode scans. The sensor is told now_us, as the slot may be late; the plan is for the slot's
+  // nominal time.
   void start(const TrackState& track, TimeUs now_us);
   // Sends the structures of the sensors of which there is news; of all, where none is news. Loop bound: kMaxSensors.
   void send_sensors(TimeUs now_us);
@@ -57,7 +59,8 @@ class ScanScheduler {
   // The target is another one: what was learnt of the sensors is of no use.
   void forget_sensors();
 
-  // The step of a scan whose estimate is late.
+  // The step of the estimated scan, whose estimate is late: a prediction (kOverrun), and a frame of the mode used up. Counted, with an
+  // event.
   TrackStep step_without_estimate(const TrackState& track);
 
   const ScanInFlight& acquired() const { return acquired_; }    // in this frame
