@@ -116,10 +116,10 @@ inline constexpr Choice kSearchReasons[] = {
   {"not_done", "idle, or still at work"},
   {"distinct", "the best pose explains the scans, and no other does"},
   {"competitor", "another pose explains them nearly as well", "wait for another aspect, or choose among the candidates"},
-  {"too_few_returns", "fewer returns than search.hits_min", "wait for a nearer target, or lower search.hits_min"},
+  {"too_few_returns", "fewer returns than a search needs: 80, of all its scans", "wait for a nearer target; a mission with more scan.points sees more of it"},
   {"unexplained", "the best pose leaves too much unexplained", "check that the mission image is the target's; look for background"},
   {"not_registered", "the registration of the best pose failed", "wait for another aspect"},
-  {"unfinished", "search.work_max was used up before every other pose was excluded", "wait for another aspect, or raise search.work_max"},
+  {"unfinished", "the search had done all its work before every other pose was excluded", "wait for another aspect, or send a pose to start from"},
 };
 inline constexpr Choice kSensorReasons[] = {
   {"in_band", "the target's range is within the sensor's band (use_from_m, use_to_m)"},

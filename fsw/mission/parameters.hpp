@@ -41,7 +41,7 @@ struct MissionParameters : SensorParameters {
   double start_frames, start_inlier_share_min, start_gate, start_check, start_age_max_s, start_first, start_second, start_third,
       start_fourth, start_fifth;
   // [search] the first pose without any prior attitude
-  double search_hits_min, search_disagreement_max, search_ratio_min, search_scans_max, search_work_max, search_slice, search_frames;
+  double search_slice, search_frames;
   // [short_range] a large target close by, scanned part by part
   double short_range_enter_m, short_range_leave_m, disagreement_max, rest_frames;
   // [image] what an image that is loaded in flight has to show
@@ -55,8 +55,9 @@ struct MissionParameters : SensorParameters {
 
 enum class ParameterKind : std::uint8_t { kReal, kInteger, kBoolean, kChoice };
 
-// A new row gets this id and raises it by one. The id of a row that goes is never used again.
+// A new row gets this id and raises it by one. The id of a row that goes joins those below, and is never used again.
 constexpr std::uint16_t kNextParameterId = 102;
+constexpr std::uint16_t kRetiredParameterIds[] = {74, 75, 76, 77, 78};
 
 struct ParameterRow {
   std::uint16_t id;    // names the parameter on the link, wherever its row stands

@@ -11,7 +11,6 @@ namespace {
 
 // Of half of the target's length: a length of the estimation above it is one in other units.
 constexpr double kLargestShare = 0.25;
-constexpr double kLargestRatio = 5;
 constexpr double kTightestKernel = 3;
 constexpr double kLostShare = 0.05;         // of good poses, by a gate on their normalised square
 constexpr double kMostContradicting = 0.1;  // of the returns: what moves fewer of them is no other configuration
@@ -59,12 +58,6 @@ std::string age_fault(const Subject& s) {
   if (s.p.start_age_max_s >= s.p.period_s) return "";
   return "a pose that comes over the link waits for the next frame, up to filter.period_s, which is " + figure(s.p.period_s) +
          " s: it would be refused as too old";
-}
-
-std::string ratio_fault(const Subject& s) {
-  if (!is_in_order(s.p, kSearchSource) || s.p.search_ratio_min <= kLargestRatio) return "";
-  return "the best competitor seldom explains a scan " + figure(kLargestRatio) +
-         " times worse: most searches would be ambiguous; 1.3 is 30 %";
 }
 
 std::string kernel_fault(const Subject& s) {
@@ -181,7 +174,6 @@ const Rules& estimation_rules() {
     {kWarning, kParameters, kValues, {"estimation.silhouette_sigma_m", "estimation.silhouette_band_m"}, silhouette_band_fault},
     {kWarning, kParameters, kValues, {"estimation.probe_step_m", "estimation.silhouette_band_m"}, probe_fault},
     {kWarning, kParameters, kValues, {"start.age_max_s", "filter.period_s"}, age_fault},
-    {kWarning, kParameters, kValues, {"search.ratio_min", "start.first", "start.second", "start.third", "start.fourth", "start.fifth"}, ratio_fault},
     {kWarning, kParameters, kValues, {"estimation.kernel_width"}, kernel_fault},
     {kWarning, kParameters, kValues, {"start.gate"}, start_gate_fault},
     {kWarning, kParameters, kValues, {"tracking.innovation_max"}, innovation_fault},

@@ -96,8 +96,6 @@ TEST_F(EstimationRules, LengthsAreSmallAgainstTheTarget) {
 TEST_F(EstimationRules, LimitsLeaveGoodPosesTheirRoom) {
   VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
   expect_edge("estimation.kernel_width = 3", "estimation.kernel_width = 2", "estimation.kernel_width: 2", "more than 2 sigmas off");
-  expect_edge("start.fifth = 'search'\nsearch.ratio_min = 5", "start.fifth = 'search'\nsearch.ratio_min = 30", "search.ratio_min: 30",
-              "1.3 is 30 %");
   const std::string pose = "tracking.initial.present = true\ntracking.initial.z_m = 5\ntracking.initial.wx_degps = ";
   expect_edge(pose + "83", pose + "300", "tracking.initial.wx_degps: 300", "turns by 54 deg in a scan");
 }
