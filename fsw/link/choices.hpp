@@ -25,7 +25,7 @@ inline constexpr Choice kPoseReasons[] = {
   {"overrun", "the estimate was not ready at its boundary, and was dropped whole", "look at overruns; a shorter scan or fewer iterations take less time"},
   {"implausible", "the filter's prediction excludes this pose: one of both is wrong", "none if it is rare; otherwise command reacquiring"},
   {"only_bearing", "a full-field scan: no attitude is looked for", "none: this is what mode bearing does"},
-  {"far_from_start", "farther from the prediction that it was to confirm than start.gate allows", "send a better pose to start from"},
+  {"far_from_start", "farther from the prediction that it was to confirm than 25 squared sigmas", "send a better pose to start from"},
   {"searching", "no attitude is known: it is looked for", "none: this is what mode searching does"},
   {"part_disagrees", "of a part that is elsewhere than the others say", "look at inconsistent_part: it may have moved, or have a wrong model"},
   {"too_fast", "the target is predicted to turn or move too far within the scan for its points to be brought to one time, or faster than 60 rad/s or 500 m/s", "start anew with the right rates; shorten scan.duration_s for a target that is so fast"},

@@ -38,12 +38,12 @@ struct MissionParameters : SensorParameters {
   double start_sigma_m, start_sigma_rad, inliers_min, inlier_share_min, agreement_min, sigma_position_max_m, sigma_attitude_max_rad,
       innovation_max, coast_frames, hysteresis, recover, reacquire_frames;
   // [start] the sources of a pose to start from
-  double start_frames, start_inlier_share_min, start_gate, start_check, start_age_max_s, start_first, start_second, start_third,
-      start_fourth, start_fifth;
+  double start_frames, start_inlier_share_min, start_check, start_age_max_s, start_first, start_second, start_third, start_fourth,
+      start_fifth;
   // [search] the first pose without any prior attitude
   double search_slice, search_frames;
   // [short_range] a large target close by, scanned part by part
-  double short_range_enter_m, short_range_leave_m, disagreement_max, rest_frames;
+  double short_range_enter_m, short_range_leave_m;
   // [image] what an image that is loaded in flight has to show
   double image_trial_scans, image_trial_valid_min;
   // [link]
@@ -57,7 +57,7 @@ enum class ParameterKind : std::uint8_t { kReal, kInteger, kBoolean, kChoice };
 
 // A new row gets this id and raises it by one. The id of a row that goes joins those below, and is never used again.
 constexpr std::uint16_t kNextParameterId = 102;
-constexpr std::uint16_t kRetiredParameterIds[] = {74, 75, 76, 77, 78};
+constexpr std::uint16_t kRetiredParameterIds[] = {66, 74, 75, 76, 77, 78, 83, 84};
 
 struct ParameterRow {
   std::uint16_t id;    // names the parameter on the link, wherever its row stands

@@ -73,10 +73,6 @@ std::string gate_text(double gate) {
          percent_text(refused_share(gate)) + " of them, which would be refused";
 }
 
-std::string start_gate_fault(const Subject& s) {
-  return !checks_starts(s.p) || refused_share(s.p.start_gate) <= kLostShare ? "" : gate_text(s.p.start_gate);
-}
-
 std::string innovation_fault(const Subject& s) {
   const double gate = s.p.innovation_max * s.p.innovation_max;
   return refused_share(gate) <= kLostShare ? "" : gate_text(gate);
@@ -175,7 +171,6 @@ const Rules& estimation_rules() {
     {kWarning, kParameters, kValues, {"estimation.probe_step_m", "estimation.silhouette_band_m"}, probe_fault},
     {kWarning, kParameters, kValues, {"start.age_max_s", "filter.period_s"}, age_fault},
     {kWarning, kParameters, kValues, {"estimation.kernel_width"}, kernel_fault},
-    {kWarning, kParameters, kValues, {"start.gate"}, start_gate_fault},
     {kWarning, kParameters, kValues, {"tracking.innovation_max"}, innovation_fault},
     {kWarning, kParameters, kValues, {"tracking.initial.wx_degps", "tracking.initial.wy_degps", "tracking.initial.wz_degps"}, fast_start_fault},
     {kWarning, kParameters, kValues, {"link.silence_max_s", "filter.period_s"}, silence_fault},

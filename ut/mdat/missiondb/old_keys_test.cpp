@@ -9,7 +9,13 @@
 namespace lasso::mdat {
 namespace {
 
-constexpr const char* kConstants[] = {"search.hits_min", "search.disagreement_max", "search.ratio_min", "search.scans_max",
+constexpr const char* kConstants[] = {"start.gate",
+                                      "short_range.disagreement_max",
+                                      "short_range.rest_frames",
+                                      "search.hits_min",
+                                      "search.disagreement_max",
+                                      "search.ratio_min",
+                                      "search.scans_max",
                                       "search.work_max"};
 
 TEST(OldKeys, SayWhatIsInTheirPlace) {
