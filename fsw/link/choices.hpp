@@ -33,7 +33,7 @@ inline constexpr Choice kPoseReasons[] = {
   {"contradicted", "of a start: a search of the scan that would confirm it found a pose that explains it better", "let the search find it, or start anew from a better pose"},
 };
 inline constexpr Choice kStopReasons[] = {
-  {"converged", "the last step was below estimation.stop_translation_m and _rotation_deg, or within 1 sigma of the pose (2.9 after many passes)"},
+  {"converged", "the last step was below estimation.stop_translation_m and 0.01 deg, or within 1 sigma of the pose (2.9 after many passes)"},
   {"iteration_limit", "estimation.iterations_max was reached"},
   {"too_few_points", "too few returns lay on the model"},
   {"singular", "the normal equations had no solution"},

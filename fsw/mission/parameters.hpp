@@ -23,13 +23,12 @@ constexpr std::size_t kSensorValues = 15;
 // The members of the base are those of the sensor whose scans these parameters are for.
 struct MissionParameters : SensorParameters {
   // [sensing] which of several sensors takes a scan
-  double fault_scans, sensor_rest_frames, look_scans;
+  double fault_scans;
   // [scan]
   double pattern, points, duration_s, cycles_a, cycles_b, margin, phase_step_turns, aimed_share;
   // [estimation]
-  double incidence_max_rad, kernel_width, gate_first_m, iterations_max, stop_translation_m, stop_rotation_rad, silhouettes,
-      silhouette_sigma_m, silhouette_band_m, edge_gap_min_m, edge_depth_m, probe_step_m, label_error, deskew, noise_estimated,
-      surface_sigma_m, wide_start;
+  double incidence_max_rad, kernel_width, gate_first_m, iterations_max, stop_translation_m, silhouettes, silhouette_sigma_m,
+      silhouette_band_m, edge_gap_min_m, edge_depth_m, probe_step_m, deskew, noise_estimated, surface_sigma_m, wide_start;
   // [filter]
   double period_s, acceleration_mps2, angular_acceleration_radps2, precession, initial_rate_mps, initial_angular_rate_radps;
   // [bearing] the target's direction and range without its attitude
@@ -57,7 +56,7 @@ enum class ParameterKind : std::uint8_t { kReal, kInteger, kBoolean, kChoice };
 
 // A new row gets this id and raises it by one. The id of a row that goes joins those below, and is never used again.
 constexpr std::uint16_t kNextParameterId = 102;
-constexpr std::uint16_t kRetiredParameterIds[] = {66, 74, 75, 76, 77, 78, 83, 84};
+constexpr std::uint16_t kRetiredParameterIds[] = {16, 17, 31, 38, 66, 74, 75, 76, 77, 78, 83, 84};
 
 struct ParameterRow {
   std::uint16_t id;    // names the parameter on the link, wherever its row stands

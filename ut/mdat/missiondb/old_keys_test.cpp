@@ -9,14 +9,10 @@
 namespace lasso::mdat {
 namespace {
 
-constexpr const char* kConstants[] = {"start.gate",
-                                      "short_range.disagreement_max",
-                                      "short_range.rest_frames",
-                                      "search.hits_min",
-                                      "search.disagreement_max",
-                                      "search.ratio_min",
-                                      "search.scans_max",
-                                      "search.work_max"};
+constexpr const char* kRetiredKeys[] = {"sensing.rest_frames",     "sensing.look_scans", "estimation.stop_rotation_deg",
+                                        "estimation.label_error",  "start.gate",         "short_range.disagreement_max",
+                                        "short_range.rest_frames", "search.hits_min",    "search.disagreement_max",
+                                        "search.ratio_min",        "search.scans_max",   "search.work_max"};
 
 TEST(OldKeys, SayWhatIsInTheirPlace) {
   VERIFIES("LASSO-GND-003~1");
@@ -29,8 +25,8 @@ TEST(OldKeys, SayWhatIsInTheirPlace) {
 // Each id that is retired had a key, and each of these keys is a row's no more.
 TEST(OldKeys, AreThoseOfTheRetiredIds) {
   VERIFIES("LASSO-GND-003~1 LASSO-IMG-006~1");
-  EXPECT_EQ(std::size(kConstants), std::size(kRetiredParameterIds));
-  for (const char* key : kConstants) {
+  EXPECT_EQ(std::size(kRetiredKeys), std::size(kRetiredParameterIds));
+  for (const char* key : kRetiredKeys) {
     EXPECT_NE(remedy_of_old_key(key).find("in every mission"), std::string::npos) << key;
     for (const ParameterRow& row : parameter_rows()) EXPECT_STRNE(row.key, key);
   }
