@@ -20,37 +20,84 @@ struct SensorParameters {
 };
 constexpr std::size_t kSensorValues = 15;
 
-// The members of the base are those of the sensor whose scans these parameters are for.
-struct MissionParameters : SensorParameters {
-  // [sensing] which of several sensors takes a scan
+// [sensing] which of several sensors takes a scan
+struct SensingParameters {
   double fault_scans;
-  // [scan]
+};
+
+// [scan]
+struct ScanParameters {
   double pattern, points, duration_s, cycles_a, cycles_b, margin, phase_step_turns, aimed_share;
-  // [estimation]
+};
+
+// [estimation]
+struct EstimationParameters {
   double incidence_max_rad, kernel_width, gate_first_m, iterations_max, stop_translation_m, silhouettes, silhouette_sigma_m,
       silhouette_band_m, edge_gap_min_m, edge_depth_m, probe_step_m, deskew, noise_estimated, surface_sigma_m, wide_start;
-  // [filter]
+};
+
+// [filter]
+struct FilterParameters {
   double period_s, acceleration_mps2, angular_acceleration_radps2, precession, initial_rate_mps, initial_angular_rate_radps;
-  // [bearing] the target's direction and range without its attitude
+};
+
+// [bearing] the target's direction and range without its attitude
+struct BearingParameters {
   double bearing_returns_min, bearing_rate_mps, bearing_memory_s;
-  // [tracking] validity and loss
+};
+
+// [tracking] validity and loss
+struct TrackingParameters {
   double start_sigma_m, start_sigma_rad, inliers_min, inlier_share_min, agreement_min, sigma_position_max_m, sigma_attitude_max_rad,
       innovation_max, coast_frames, hysteresis, recover, reacquire_frames;
-  // [start] the sources of a pose to start from
+};
+
+// [start] the sources of a pose to start from
+struct StartParameters {
   double start_frames, start_inlier_share_min, start_check, start_age_max_s, start_first, start_second, start_third, start_fourth,
       start_fifth;
-  // [search] the first pose without any prior attitude
+};
+
+// [search] the first pose without any prior attitude
+struct SearchParameters {
   double search_slice, search_frames;
-  // [short_range] a large target close by, scanned part by part
+};
+
+// [short_range] a large target close by, scanned part by part
+struct ShortRangeParameters {
   double short_range_enter_m, short_range_leave_m;
-  // [image] what an image that is loaded in flight has to show
+};
+
+// [image] what an image that is loaded in flight has to show
+struct ImageParameters {
   double image_trial_scans, image_trial_valid_min;
-  // [link]
+};
+
+// [link]
+struct LinkParameters {
   double link_silence_max_s;
-  // [tracking.initial] T_sensor_target and rates at the start
+};
+
+// [tracking.initial] T_sensor_target and rates at the start
+struct InitialPoseParameters {
   double initial_present, initial_qx, initial_qy, initial_qz, initial_qw, initial_x_m, initial_y_m, initial_z_m, initial_wx_radps,
       initial_wy_radps, initial_wz_radps, initial_vx_mps, initial_vy_mps, initial_vz_mps;
 };
+
+// The sections of a mission file, in its order. SensorParameters are those of the sensor whose scans these parameters are for.
+struct MissionParameters : SensorParameters,
+                           SensingParameters,
+                           ScanParameters,
+                           EstimationParameters,
+                           FilterParameters,
+                           BearingParameters,
+                           TrackingParameters,
+                           StartParameters,
+                           SearchParameters,
+                           ShortRangeParameters,
+                           ImageParameters,
+                           LinkParameters,
+                           InitialPoseParameters {};
 
 enum class ParameterKind : std::uint8_t { kReal, kInteger, kBoolean, kChoice };
 

@@ -146,7 +146,7 @@ std::string unused_parts_fault(const Subject& s) {
   return "the parts of the target are never looked at: set the range within which they are, as 1.5 times the largest of their range_m";
 }
 
-template <double MissionParameters::*kMember>
+template <double EstimationParameters::*kMember>
 std::string length_fault(const Subject& s) {
   const double value_m = s.p.*kMember, half_m = s.target->half_m();
   if (value_m <= kLargestShare * half_m) return "";
