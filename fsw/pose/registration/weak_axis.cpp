@@ -71,7 +71,7 @@ void minimise_weak_axis(const Mission& mission, const Pose& predicted, Workspace
   if (weak.sigma_m < certain_m && !is_far(mission, predicted, hits.T_target_sensor, weak)) return;
   const double first_step_m = clamp(kSigmas * weak.sigma_m, kSigmas * certain_m, kLongestStep * mission.radius_m);
   (void)minimise_along(mission, weak.axis, first_step_m, predicted, workspace, hits);
-  look_for_others(mission, weak, predicted, workspace, hits);
+  if (!(weak.sigma_m < certain_m)) look_for_others(mission, weak, predicted, workspace, hits);
 }
 
 void widen_weak_axes(const Mission& mission, const HitSolution& hits, double scale, Workspace& workspace, Mat6& covariance,

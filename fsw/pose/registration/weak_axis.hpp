@@ -13,9 +13,10 @@ namespace lasso {
 
 // Moves the registration to its minimum along the least certain axis that its hits see at all: small parts alone tell the roll of a round
 // body, or where a wing lies along itself. An axis more certain than a 500th of the radius is looked at where the pose is more than five
-// sigmas from the prediction along it. First steps are five sigmas long, a 100th of the radius at least and a tenth at most. Nothing moves
-// without information, or where the registration explains less than tracking.inlier_share_min. Bound: an inverse, two eigen-decompositions
-// and minimise_along.
+// sigmas from the prediction along it. First steps are five sigmas long, a 100th of the radius at least and a tenth at most. Other minima
+// (minima.hpp) are looked for where the axis is not that certain. A start is mostly certain and far from its prediction: looking there cost
+// three quarters of a first estimate, and found no wrong pose. Nothing moves without information, or where the registration explains less
+// than tracking.inlier_share_min. Bound: an inverse, two eigen-decompositions, minimise_along and find_minima.
 void minimise_weak_axis(const Mission& mission, const Pose& predicted_T_target_sensor, Workspace& workspace, HitSolution& hits);
 
 // Does the cost rise as the covariance says? Where it is not higher by kRise five sigmas off along an axis, either way, the sigma is
