@@ -25,7 +25,7 @@ inline constexpr Choice kPoseReasons[] = {
   {"overrun", "the estimate was not ready at its boundary, and was dropped whole", "look at overruns; a shorter scan or fewer iterations take less time"},
   {"implausible", "the filter's prediction excludes this pose: one of both is wrong", "none if it is rare; otherwise command reacquiring"},
   {"only_bearing", "a full-field scan: no attitude is looked for", "none: this is what mode bearing does"},
-  {"far_from_start", "farther from the prediction that it was to confirm than start.gate allows", "send a better pose to start from"},
+  {"far_from_start", "farther from the prediction that it was to confirm than 25 squared sigmas", "send a better pose to start from"},
   {"searching", "no attitude is known: it is looked for", "none: this is what mode searching does"},
   {"part_disagrees", "of a part that is elsewhere than the others say", "look at inconsistent_part: it may have moved, or have a wrong model"},
   {"too_fast", "the target is predicted to turn or move too far within the scan for its points to be brought to one time, or faster than 60 rad/s or 500 m/s", "start anew with the right rates; shorten scan.duration_s for a target that is so fast"},
@@ -33,7 +33,7 @@ inline constexpr Choice kPoseReasons[] = {
   {"contradicted", "of a start: a search of the scan that would confirm it found a pose that explains it better", "let the search find it, or start anew from a better pose"},
 };
 inline constexpr Choice kStopReasons[] = {
-  {"converged", "the last step was below estimation.stop_translation_m and _rotation_deg, or within 1 sigma of the pose (2.9 after many passes)"},
+  {"converged", "the last step was below estimation.stop_translation_m and 0.01 deg, or within 1 sigma of the pose (2.9 after many passes)"},
   {"iteration_limit", "estimation.iterations_max was reached"},
   {"too_few_points", "too few returns lay on the model"},
   {"singular", "the normal equations had no solution"},
@@ -116,10 +116,10 @@ inline constexpr Choice kSearchReasons[] = {
   {"not_done", "idle, or still at work"},
   {"distinct", "the best pose explains the scans, and no other does"},
   {"competitor", "another pose explains them nearly as well", "wait for another aspect, or choose among the candidates"},
-  {"too_few_returns", "fewer returns than search.hits_min", "wait for a nearer target, or lower search.hits_min"},
+  {"too_few_returns", "fewer returns than a search needs: 80, of all its scans", "wait for a nearer target; a mission with more scan.points sees more of it"},
   {"unexplained", "the best pose leaves too much unexplained", "check that the mission image is the target's; look for background"},
   {"not_registered", "the registration of the best pose failed", "wait for another aspect"},
-  {"unfinished", "search.work_max was used up before every other pose was excluded", "wait for another aspect, or raise search.work_max"},
+  {"unfinished", "the search had done all its work before every other pose was excluded", "wait for another aspect, or send a pose to start from"},
 };
 inline constexpr Choice kSensorReasons[] = {
   {"in_band", "the target's range is within the sensor's band (use_from_m, use_to_m)"},

@@ -176,7 +176,7 @@ inline constexpr EventRow kRows[] = {
   {EventId::kSensorFailed, "sensor_failed", Severity::kMedium, {4, 250}, Span<const ItemRow>(kSensorOnly),
    "a sensor is left out for some frames", "it lost so many scans in a row as sensing.fault_scans says", "look at the sensor"},
   {EventId::kSensorBack, "sensor_back", Severity::kInformative, {4, 250}, Span<const ItemRow>(kSensorOnly),
-   "a sensor that had failed may take scans again", "it has rested for sensing.rest_frames", ""},
+   "a sensor that had failed may take scans again", "it has rested for 50 scans", ""},
   {EventId::kScanLost, "scan_lost", Severity::kLow, {4, 25}, Span<const ItemRow>(kScanLost),
    "a scan gives no pose", "the item loss says it", "see scan_loss, and the packet sensor"},
   {EventId::kEstimateLate, "estimate_late", Severity::kMedium, {4, 25}, Span<const ItemRow>(kEstimateLate),

@@ -20,43 +20,90 @@ struct SensorParameters {
 };
 constexpr std::size_t kSensorValues = 15;
 
-// The members of the base are those of the sensor whose scans these parameters are for.
-struct MissionParameters : SensorParameters {
-  // [sensing] which of several sensors takes a scan
-  double fault_scans, sensor_rest_frames, look_scans;
-  // [scan]
+// [sensing] which of several sensors takes a scan
+struct SensingParameters {
+  double fault_scans;
+};
+
+// [scan]
+struct ScanParameters {
   double pattern, points, duration_s, cycles_a, cycles_b, margin, phase_step_turns, aimed_share;
-  // [estimation]
-  double incidence_max_rad, kernel_width, gate_first_m, iterations_max, stop_translation_m, stop_rotation_rad, silhouettes,
-      silhouette_sigma_m, silhouette_band_m, edge_gap_min_m, edge_depth_m, probe_step_m, label_error, deskew, noise_estimated,
-      surface_sigma_m, wide_start;
-  // [filter]
+};
+
+// [estimation]
+struct EstimationParameters {
+  double incidence_max_rad, kernel_width, gate_first_m, iterations_max, stop_translation_m, silhouettes, silhouette_sigma_m,
+      silhouette_band_m, edge_gap_min_m, edge_depth_m, probe_step_m, deskew, noise_estimated, surface_sigma_m, wide_start;
+};
+
+// [filter]
+struct FilterParameters {
   double period_s, acceleration_mps2, angular_acceleration_radps2, precession, initial_rate_mps, initial_angular_rate_radps;
-  // [bearing] the target's direction and range without its attitude
+};
+
+// [bearing] the target's direction and range without its attitude
+struct BearingParameters {
   double bearing_returns_min, bearing_rate_mps, bearing_memory_s;
-  // [tracking] validity and loss
+};
+
+// [tracking] validity and loss
+struct TrackingParameters {
   double start_sigma_m, start_sigma_rad, inliers_min, inlier_share_min, agreement_min, sigma_position_max_m, sigma_attitude_max_rad,
       innovation_max, coast_frames, hysteresis, recover, reacquire_frames;
-  // [start] the sources of a pose to start from
-  double start_frames, start_inlier_share_min, start_gate, start_check, start_age_max_s, start_first, start_second, start_third,
-      start_fourth, start_fifth;
-  // [search] the first pose without any prior attitude
-  double search_hits_min, search_disagreement_max, search_ratio_min, search_scans_max, search_work_max, search_slice, search_frames;
-  // [short_range] a large target close by, scanned part by part
-  double short_range_enter_m, short_range_leave_m, disagreement_max, rest_frames;
-  // [image] what an image that is loaded in flight has to show
+};
+
+// [start] the sources of a pose to start from
+struct StartParameters {
+  double start_frames, start_inlier_share_min, start_check, start_age_max_s, start_first, start_second, start_third, start_fourth,
+      start_fifth;
+};
+
+// [search] the first pose without any prior attitude
+struct SearchParameters {
+  double search_slice, search_frames;
+};
+
+// [short_range] a large target close by, scanned part by part
+struct ShortRangeParameters {
+  double short_range_enter_m, short_range_leave_m;
+};
+
+// [image] what an image that is loaded in flight has to show
+struct ImageParameters {
   double image_trial_scans, image_trial_valid_min;
-  // [link]
+};
+
+// [link]
+struct LinkParameters {
   double link_silence_max_s;
-  // [tracking.initial] T_sensor_target and rates at the start
+};
+
+// [tracking.initial] T_sensor_target and rates at the start
+struct InitialPoseParameters {
   double initial_present, initial_qx, initial_qy, initial_qz, initial_qw, initial_x_m, initial_y_m, initial_z_m, initial_wx_radps,
       initial_wy_radps, initial_wz_radps, initial_vx_mps, initial_vy_mps, initial_vz_mps;
 };
 
+// The sections of a mission file, in its order. SensorParameters are those of the sensor whose scans these parameters are for.
+struct MissionParameters : SensorParameters,
+                           SensingParameters,
+                           ScanParameters,
+                           EstimationParameters,
+                           FilterParameters,
+                           BearingParameters,
+                           TrackingParameters,
+                           StartParameters,
+                           SearchParameters,
+                           ShortRangeParameters,
+                           ImageParameters,
+                           LinkParameters,
+                           InitialPoseParameters {};
+
 enum class ParameterKind : std::uint8_t { kReal, kInteger, kBoolean, kChoice };
 
-// A new row gets this id and raises it by one. The id of a row that goes is never used again.
+// A new row gets this id and raises it by one. The id of a row that goes joins those below, and is never used again.
 constexpr std::uint16_t kNextParameterId = 102;
+constexpr std::uint16_t kRetiredParameterIds[] = {16, 17, 31, 38, 66, 74, 75, 76, 77, 78, 83, 84};
 
 struct ParameterRow {
   std::uint16_t id;    // names the parameter on the link, wherever its row stands

@@ -18,9 +18,13 @@ Mat6 moved_by(const Vec3& lever) {
 
 Vec3 lever_of(const Part& part, const Pose& T_sensor_target) { return rotate(T_sensor_target.q, part.T_target_part.p); }
 
-std::uint32_t end_of_rest(const MissionParameters& p, std::uint32_t scan_id) {
-  return scan_id + 1 + static_cast<std::uint32_t>(p.rest_frames);
-}
+// Squared sigmas between the poses of two parts that disagree: of six sigmas and six degrees of freedom, 1 of 360,000 right pairs is
+// farther apart (chi squared).
+constexpr double kInconsistent = 6 * 6;
+// For which a part is left out: afterwards the poses that contradicted it are not fresh any more.
+constexpr std::uint32_t kRestScans = kFreshScans;
+
+std::uint32_t end_of_rest(std::uint32_t scan_id) { return scan_id + 1 + kRestScans; }
 
 bool is_fresh(const PartRecord& record, std::uint32_t scan_id) { return record.measured && scan_id - record.scan_id <= kFreshScans; }
 
@@ -46,13 +50,13 @@ void note_disagreement(std::size_t a, std::size_t b, double d2, Comparison& comp
   }
 }
 
-Comparison compare(const Parts& parts, const PartsState& state, std::uint32_t scan_id, double limit2) {
+Comparison compare(const Parts& parts, const PartsState& state, std::uint32_t scan_id) {
   Comparison result;
   for (std::size_t a = 0; a < parts.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
       if (!is_fresh(state.of[a], scan_id) || !is_fresh(state.of[b], scan_id)) continue;
       const double d2 = distance2(state.of[a], state.of[b]);
-      if (d2 > limit2) note_disagreement(a, b, d2, result);
+      if (d2 > kInconsistent) note_disagreement(a, b, d2, result);
     }
   }
   return result;
@@ -200,16 +204,16 @@ Registration register_part(const Mission& mission, const Part& part, Estimator& 
   return result;
 }
 
-void refuse_part(const MissionParameters& p, std::uint32_t scan_id, PartRecord& record) {
+void refuse_part(std::uint32_t scan_id, PartRecord& record) {
   record.measured = false;
-  record.rests_until = end_of_rest(p, scan_id);
+  record.rests_until = end_of_rest(scan_id);
 }
 
-PoseReason compare_parts(const Mission& mission, const Parts& parts, const Registration& registration, const FilterState& predicted,
-                         PartsState& state, PartsReport& report) {
+PoseReason compare_parts(const Parts& parts, const Registration& registration, const FilterState& predicted, PartsState& state,
+                         PartsReport& report) {
   const std::size_t scanned = report.scanned - 1U;
   const std::uint32_t scan_id = registration.scan_id;
-  const std::uint32_t rests_until = end_of_rest(mission.parameters, scan_id);
+  const std::uint32_t rests_until = end_of_rest(scan_id);
   PartRecord& record = state.of[scanned];
   if (!registration.valid()) {
     record.rests_until = rests_until;
@@ -221,8 +225,7 @@ PoseReason compare_parts(const Mission& mission, const Parts& parts, const Regis
   record.off = pose_difference(registration.T_sensor_target, predicted.T_sensor_target);
   const Mat6 own = registration.covariance - registration.common * registration.common.transpose();
   record.covariance = pack(own + relative_covariance(predicted));
-  const double limit = mission.parameters.disagreement_max;
-  const Comparison comparison = compare(parts, state, scan_id, limit * limit);
+  const Comparison comparison = compare(parts, state, scan_id);
   const std::size_t inconsistent = find_inconsistent(parts, comparison, scanned);
   if (comparison.votes[inconsistent] == 0) return PoseReason::kValid;
   reinstate(parts, comparison, inconsistent, state);

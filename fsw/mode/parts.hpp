@@ -1,6 +1,6 @@
 // A large target close by, of which no scan sees the whole: scans look at parts of it in turn, each with a model of its own. A part's
 // pose is stated in the target's frame and joins the one filter of the track; the last poses of the parts are compared with each other,
-// and the inconsistent one is left out for short_range.rest_frames, as is a part that gave no pose. See docs/decisions/parts.md.
+// and the inconsistent one is left out for 25 scans, as is a part that gave no pose. See docs/decisions/parts.md.
 //
 // Parts are numbered from 1, in the image's order; 0 is the target as a whole.
 #pragma once
@@ -59,14 +59,14 @@ Registration register_part(const Mission& mission, const Part& part, Estimator& 
 // Notes the part's registration, valid or not, and compares it with the last ones of the other parts. kPartDisagrees if the scanned part
 // is inconsistent; otherwise the registration's own reason. It is the part that disagrees with the most others; among equals the
 // one of lower priority, then the scanned one. A part that rested because it disagreed with nobody but the inconsistent one rests no
-// longer. Two poses disagree where their difference exceeds short_range.disagreement_max sigmas; poses older than kFreshScans scans do not
+// longer. Two poses disagree where their difference exceeds six sigmas; poses older than kFreshScans scans do not
 // count. Loop bound: pairs of parts.
 constexpr std::uint32_t kFreshScans = 25;
-PoseReason compare_parts(const Mission& mission, const Parts& parts, const Registration& registration, const FilterState& predicted,
-                         PartsState& state, PartsReport& report);
+PoseReason compare_parts(const Parts& parts, const Registration& registration, const FilterState& predicted, PartsState& state,
+                         PartsReport& report);
 
 // The track refuses the pose that was compared last: it speaks of no other part, and the part rests.
-void refuse_part(const MissionParameters& p, std::uint32_t scan_id, PartRecord& record);
+void refuse_part(std::uint32_t scan_id, PartRecord& record);
 
 // A scan that is to be planned.
 struct NextScan {

@@ -18,16 +18,6 @@ constexpr std::uint32_t kAimedFrom = 3;  // bearing scans: the next but one afte
 
 }  // namespace
 
-SearchLimits search_limits(const MissionParameters& p) {
-  SearchLimits limits;
-  limits.hits_min = p.search_hits_min;
-  limits.disagreement_max = p.search_disagreement_max;
-  limits.ratio_min = p.search_ratio_min;
-  limits.scans_max = static_cast<std::uint32_t>(p.search_scans_max);
-  limits.work_max = static_cast<std::uint32_t>(p.search_work_max);
-  return limits;
-}
-
 std::uint32_t frame_work(const MissionParameters& p) { return static_cast<std::uint32_t>(kFrameShare * p.search_slice); }
 
 StartOffer offer_of(const Mission& mission, const SearchResult& result) {
@@ -42,18 +32,18 @@ StartOffer offer_of(const Mission& mission, const SearchResult& result) {
   return offer;
 }
 
-void Searcher::begin(const MissionParameters& p, std::uint32_t number, bool checks) {
+void Searcher::begin(std::uint32_t number, bool checks) {
   number_ = number;
   checks_ = checks;
   waiting_ = false;
-  SearchLimits limits = search_limits(p);
+  SearchLimits limits = limits_;
   if (checks) limits.scans_max = 1;
   search_.begin(limits);
 }
 
 // A scan without returns is not taken; the next one may be.
 void Searcher::take(const Mission& mission, const RangeImage& scan, Workspace& workspace) {
-  if (!search_.joins()) begin(mission.parameters, number_, false);
+  if (!search_.joins()) begin(number_, false);
   static_cast<void>(search_.add_scan(mission, scan, workspace));
   taken_us_ = scan.reference_time_us();
   waiting_ = false;
@@ -74,14 +64,14 @@ void Searcher::receive(const Mission& mission, const RangeImage& scan, Workspace
 // A single scan shows no rate.
 bool Searcher::stale(const MissionParameters& p, TimeUs now_us) const {
   const double age_s = to_seconds(now_us - search_.result().t_us);
-  return search_.result().scans < 2 && p.search_scans_max > 1.5 && age_s * p.initial_angular_rate_radps > kTurn_rad;
+  return search_.result().scans < 2 && limits_.scans_max > 1 && age_s * p.initial_angular_rate_radps > kTurn_rad;
 }
 
 bool Searcher::offer(const Mission& mission, TrackStep& step) {
   TrackState& state = step.after;
   step.refusal = start_from(mission, offer_of(mission, search_.result()), step.registration.t_us, state.bearing, state.filter);
   if (step.refusal != StartRefusal::kNone) {
-    begin(mission.parameters, number_, false);
+    begin(number_, false);
     return false;
   }
   state.source = InitialPoseSource::kSearch;
@@ -90,7 +80,7 @@ bool Searcher::offer(const Mission& mission, TrackStep& step) {
 
 void Searcher::work(const Mission& mission, const RangeImage* scan, Workspace& workspace, TrackStep& step) {
   const MissionParameters& p = mission.parameters;
-  if (checks_ || number_ != step.after.searches) begin(p, step.after.searches, false);
+  if (checks_ || number_ != step.after.searches) begin(step.after.searches, false);
   const TimeUs now_us = step.registration.t_us;
   if (scan != nullptr && step.after.bearing.scans >= kAimedFrom) receive(mission, *scan, workspace);
   static_cast<void>(search_.advance(mission, workspace, frame_work(p)));
@@ -102,7 +92,7 @@ void Searcher::work(const Mission& mission, const RangeImage* scan, Workspace& w
 
 // False where it has no returns, or is another one: the check's own is gone.
 bool Searcher::takes_check(const Mission& mission, const RangeImage* scan, Workspace& workspace, const TrackState& state) {
-  begin(mission.parameters, state.searches, true);
+  begin(state.searches, true);
   if (scan == nullptr || scan->reference_time_us() != state.check.t_us) return false;
   taken_us_ = state.check.t_us;
   search_.suspect(state.check.T_sensor_target);

@@ -7,8 +7,6 @@
 
 namespace lasso {
 
-SearchLimits search_limits(const MissionParameters& parameters);
-
 // Units of work that a frame in mode searching takes on: search.slice, in fixed point a share of it.
 std::uint32_t frame_work(const MissionParameters& parameters);
 
@@ -18,6 +16,9 @@ StartOffer offer_of(const Mission& mission, const SearchResult& result);
 
 class Searcher {
  public:
+  // Other limits than those of a flight are for tests.
+  explicit Searcher(const SearchLimits& limits = SearchLimits()) : limits_(limits) {}
+
   // One frame in mode searching. `step` is the bearing's (bearing_scan, track_without_scan) and is completed: search, registration
   // (kSearching), state and event. `scan` is null where it was lost; it is taken where none is being worked on and it was aimed by a
   // bearing; while one is, the first scan 2 s later waits for its turn. A new search begins when step.after.searches says so, and with a
@@ -35,7 +36,7 @@ class Searcher {
  private:
   bool takes_check(const Mission& mission, const RangeImage* scan, Workspace& workspace, const TrackState& state);
   CheckOutcome outcome_of(const Mission& mission, const Pose& T_sensor_target, Workspace& workspace) const;
-  void begin(const MissionParameters& parameters, std::uint32_t number, bool checks);
+  void begin(std::uint32_t number, bool checks);
   void receive(const Mission& mission, const RangeImage& scan, Workspace& workspace);
   void keep(const RangeImage& scan);
   void take(const Mission& mission, const RangeImage& scan, Workspace& workspace);
@@ -45,6 +46,7 @@ class Searcher {
     return !search_.busy() && search_.result().outcome == SearchOutcome::kAccepted && !stale(parameters, now_us);
   }
 
+  SearchLimits limits_;
   PoseSearch search_;
   RangeImage next_;  // where one waits
   bool waiting_ = false;

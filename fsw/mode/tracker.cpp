@@ -5,6 +5,9 @@
 namespace lasso {
 namespace {
 
+// Squared sigmas between a start and the registration that would confirm it: of six degrees of freedom, 1 of 2,900 right starts is farther
+// off where both covariances are honest (chi squared; docs/validity.md).
+constexpr double kStartGate = 25;
 constexpr std::uint32_t kEstablished = 5;  // scans until the filter's word counts more than a scan's: a start may have been wrong
 
 PoseMeasurement measurement_of(const Registration& registration) {
@@ -64,7 +67,7 @@ PoseReason confirm(const MissionParameters& p, const ModeProperties& mode, bool 
   if (!(registration.agreement >= agreement_to_begin(p.agreement_min, p.hysteresis))) return PoseReason::kModelMismatch;
   if (!starts) return PoseReason::kValid;
   if (!(registration.inlier_share >= p.start_inlier_share_min)) return PoseReason::kLowInlierShare;
-  return far_from(filter, registration, p.start_gate) ? PoseReason::kFarFromStart : PoseReason::kValid;
+  return far_from(filter, registration, kStartGate) ? PoseReason::kFarFromStart : PoseReason::kValid;
 }
 
 // A start by search has been compared with all other poses, and one whose attitude is known excludes them.
@@ -266,10 +269,10 @@ TrackStep track_part(const Mission& mission, const Parts& parts, PartNumber part
   predict_or_hold(mission.parameters, scan.reference_time_us(), filter);
   Registration& registration = step.registration;
   registration = register_part(mission, parts[part - 1U], estimator, scan, filter);
-  const PoseReason own = compare_parts(mission, parts, registration, filter, step.after.parts, step.parts);
+  const PoseReason own = compare_parts(parts, registration, filter, step.after.parts, step.parts);
   registration.reason = own;
   take(mission.parameters, properties(before.mode), step);
-  if (registration.reason != own) refuse_part(mission.parameters, scan.scan_id, step.after.parts.of[part - 1U]);
+  if (registration.reason != own) refuse_part(scan.scan_id, step.after.parts.of[part - 1U]);
   return step;
 }
 

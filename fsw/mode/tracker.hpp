@@ -79,7 +79,7 @@ void change_mode(ModeEvent event, TrackState& state);
 StartRefusal start_track(const Mission& mission, InitialPoseSource source, const StartOffer& offer, TimeUs t_us, TrackState& state);
 
 // One scan: predict, register, join to the filter, next mode. In a mode that confirms, a valid registration has to agree with the
-// prediction (start.gate, kFarFromStart), and starts the filter anew, since the prediction may be far off; so does one that the filter
+// prediction (kFarFromStart), and starts the filter anew, since the prediction may be far off; so does one that the filter
 // cannot take. Where start.check is set, a start of another source than search is then checked (end_check): the scans that it takes are
 // kUnchecked, but join the filter. One that the prediction of a filter with 5 scans excludes (tracking.innovation_max) is kImplausible and
 // joins nothing; it ends a check, and the start has to be confirmed anew. A prediction less certain than the registration's gate is a rough

@@ -5,6 +5,13 @@ namespace {
 
 static_assert(kMaxSensors <= 8, "a bit of failed() each");
 
+// Scans for which a sensor that has failed rests. One scan tells whether it is back, so that one that stays broken costs a fiftieth of the
+// scans.
+constexpr std::uint32_t kSensorRestScans = 50;
+// Scans for which a sensor looks for a target of unknown range before the next one does. A bearing needs one scan that sees the target and
+// a search three bearings (fsw/mode/searcher.hpp); ten leave room for lost scans, and four sensors have all looked within forty.
+constexpr std::uint32_t kLookScans = 10;
+
 // Grades of a sensor for a scan.
 constexpr int kFailed = 0;
 constexpr int kWorks = 1;
@@ -44,7 +51,7 @@ SensorNumber SensorChooser::best(const Mission& mission, const SensorNeed& need)
 // The one in use until it has looked for long enough, or fails; then the next one that works.
 SensorNumber SensorChooser::next_to_look(const Mission& mission, std::uint32_t scan_id) {
   ++looked_;
-  if (works(in_use_, scan_id) && static_cast<double>(looked_) <= mission.parameters.look_scans) return in_use_;
+  if (works(in_use_, scan_id) && looked_ <= kLookScans) return in_use_;
   looked_ = 1;
   const SensorNumber count = count_of(mission);
   for (SensorNumber i = 1; i < count; ++i) {
@@ -83,7 +90,7 @@ void SensorChooser::note(const MissionParameters& p, SensorNumber sensor, std::u
   Record& record = records_[sensor];
   record.lost = usable ? 0 : record.lost + 1;
   if (static_cast<double>(record.lost) < p.fault_scans) return;
-  record.rests_until = scan_id + 1 + static_cast<std::uint32_t>(p.sensor_rest_frames);
+  record.rests_until = scan_id + 1 + kSensorRestScans;
 }
 
 std::uint8_t SensorChooser::failed(std::uint32_t scan_id) const {

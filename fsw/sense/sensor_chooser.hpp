@@ -11,7 +11,7 @@ namespace lasso {
 
 enum class SensorReason : std::uint8_t {
   kInBand = 0,        // the target's range is within the sensor's band (sensor.use_from_m, use_to_m)
-  kRangeUnknown = 1,  // nobody knows the range: the sensors that work look in turn, for sensing.look_scans scans each
+  kRangeUnknown = 1,  // nobody knows the range: the sensors that work look in turn, for 10 scans each
   kOutsideBands = 2,  // within nobody's band; the sensor measures the range (sensor.range_min_m, range_max_m)
   kSubstitute = 3,    // the one whose band it is has failed; the sensor measures the range
   kOutOfRange = 4,    // no sensor that works measures the range

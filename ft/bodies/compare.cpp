@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "fsw/mode/searcher.hpp"
 #include "fsw/pose/estimator/estimator.hpp"
+#include "fsw/pose/recognition/pose_search.hpp"
 #include "ft/bodies/likelihood.hpp"
 #include "mdat/benchmark/still_scans.hpp"
 #include "mdat/common/text.hpp"
@@ -47,7 +47,7 @@ class Comparer {
 
  private:
   bool search(const RangeImage& scan) {
-    SearchLimits limits = search_limits(scans_.mission().parameters);
+    SearchLimits limits;
     limits.scans_max = 1;
     search_->begin(limits);
     if (search_->add_scan(scans_.mission(), scan, estimator_->workspace()) != Status::kOk) return false;

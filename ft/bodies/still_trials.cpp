@@ -2,7 +2,7 @@
 #include <cmath>
 #include <memory>
 
-#include "fsw/mode/searcher.hpp"
+#include "fsw/pose/recognition/pose_search.hpp"
 #include "ft/bodies/trials.hpp"
 #include "mdat/benchmark/still_scans.hpp"
 #include "mdat/replay/single_scans.hpp"
@@ -106,7 +106,7 @@ Tally search(const Subject& subject, std::size_t searches) {
     const Pose truth = scans.draw_pose();
     const RangeImage& scan = scans.scan(subject.target->surface(), truth, truth);
     Trial trial = trial_of(subject, i, truth, scan);
-    SearchLimits limits = search_limits(scans.mission().parameters);
+    SearchLimits limits;
     limits.scans_max = 1;
     finder->begin(limits);
     if (finder->add_scan(scans.mission(), scan, *workspace) == Status::kOk) {

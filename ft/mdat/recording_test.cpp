@@ -131,6 +131,18 @@ TEST_F(Recording, ForReplayIsSmallAndIsFlownAgain) {
   EXPECT_NE(replay.out.find("telemetry: the same as recorded"), std::string::npos) << replay.out;
 }
 
+// The disk takes 600 kB of a file, some ten frames. With the signal ignored, a write beyond them fails as on a full disk.
+TEST_F(Recording, ThatTheDiskRefusesEndsTheRun) {
+  VERIFIES("LASSO-REC-046~1");
+  work_.write_mission();
+  const Answer answer = work_.mdat("run missions/test.toml --scenario spin --no-report --frames 40 --out out/run --record out/run.mcap",
+                                   "trap '' XFSZ; ulimit -f 1200;");
+  EXPECT_EQ(answer.exit_code, 2) << answer.out;
+  const std::size_t line = answer.err.find("mdat: out/run.mcap: cannot be written: ");
+  ASSERT_NE(line, std::string::npos) << answer.err;
+  EXPECT_EQ(answer.err.find('\n', line) + 1, answer.err.size()) << "the last line: " << answer.err;
+}
+
 TEST_F(Recording, OfNoRunIsRefused) {
   VERIFIES("LASSO-REC-008~2");
   work_.write_mission();

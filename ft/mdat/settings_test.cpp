@@ -232,7 +232,7 @@ TEST(MissionDiff, TellsAValueOfEachTable) {
                              {"sensor.dropout_probability", "0.25", "0.25"},
                              {"scan.points", "512", "512"},
                              {"filter.period_s", "0.4", "0.4 s"},
-                             {"start.gate", "30", "30"},
+                             {"start.age_max_s", "30", "30 s"},
                              {"tracking.initial.z_m", "4.5", "4.5 m"},
                              {"scenario.spin.frames", "9", "9"},
                              {"scenario.spin.override.tracking.coast_frames", "7", "7"},

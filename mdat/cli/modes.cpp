@@ -40,7 +40,7 @@ Printed by `mdat modes` from the table that the component executes (`fsw/mode/mo
 The columns of the first table:
 - **scans**: where the sensor scans. *Aimed* is around the predicted target. With a *wide start* the registration may begin far off.
 - **confirms**: a valid pose confirms the start or the prediction, and starts the filter anew. It has to explain `start.inlier_share_min` of the returns, and
-  to agree with the prediction within `start.gate`. In starting, a pose from another source than search is checked as well, where `start.check` is set and the
+  to agree with the prediction within 25 squared sigmas. In starting, a pose from another source than search is checked as well, where `start.check` is set and the
   attitude of the start is stated no better than to 3° (1 sigma): its scan is searched for a better pose. Poses are `unchecked` until the search ends. Where it
   neither accepts the pose nor contradicts it, another scan is searched, once.
 - **takes up**: the share of returns that a valid pose explains has to exceed the limit of tracking by `tracking.hysteresis`. So has its agreement, but by no

@@ -11,7 +11,7 @@
 #include "mdat/common/output.hpp"
 #include "mdat/common/version.hpp"
 #include "mdat/link/upload.hpp"
-#include "mdat/recording/frame_recorder.hpp"
+#include "mdat/recording/background_recorder.hpp"
 #include "mdat/run/flight_figures.hpp"
 #include "mdat/run/results.hpp"
 
@@ -138,7 +138,7 @@ SimulationResult recorded_again(const RecordedReplay& options, const RecordedFli
                                 const CompiledMission& seen, SimulationOptions simulation) {
   if (options.record.empty()) return simulate(mission, simulation);
   const auto scans = std::make_shared<sim::SensorRecording>();
-  FrameRecorder recorder(options.record, seen, replayed_head(options, flight), scans);
+  BackgroundRecorder recorder(options.record, seen, replayed_head(options, flight), scans);
   simulation.recorders = {{scans, &recorder}};
   SimulationResult result = simulate(mission, simulation);
   const std::vector<std::uint8_t> of_mission = image_bytes(mission, result.tables[0].variants[0].parameters);

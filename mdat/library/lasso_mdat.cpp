@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fsw/mission/loader.hpp"
-#include "fsw/mode/searcher.hpp"
+#include "fsw/pose/recognition/pose_search.hpp"
 #include "hal_sim/raw_scan.hpp"
 #include "mdat/replay/single_scans.hpp"
 
@@ -186,7 +186,7 @@ std::unique_ptr<lasso_target> load(const std::uint8_t* image, std::size_t bytes)
 
 // As mdat replay --initial search does.
 void find_pose(lasso_target& target, const RangeImage& image, lasso_search_result& result) {
-  SearchLimits limits = search_limits(target.mission.parameters);
+  SearchLimits limits;
   limits.scans_max = 1;
   target.search->begin(limits);
   const Status status = target.search->add_scan(target.mission, image, *target.workspace);

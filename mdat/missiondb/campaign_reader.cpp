@@ -9,6 +9,7 @@
 #include "mdat/missiondb/campaign_rows.hpp"
 #include "mdat/missiondb/dispersions.hpp"
 #include "mdat/missiondb/law_reader.hpp"
+#include "mdat/missiondb/old_keys.hpp"
 #include "mdat/missiondb/sections.hpp"
 #include "mdat/source/nearest.hpp"
 
@@ -144,6 +145,8 @@ class CampaignReader {
   }
   void refuse_key(const toml::key& key, const std::string& name, const std::string& whole, const std::vector<std::string>& known,
                   const char* expected) {
+    const std::string old = remedy_of_old_key(name);
+    if (!old.empty()) return problems_.add(origin_of(key.source()), whole, "", old);
     const char* const remedy = not_varied(name);
     const std::string meant = did_you_mean(name, known);
     problems_.add(origin_of(key.source()), whole, "",

@@ -11,7 +11,6 @@ namespace {
 
 // Of half of the target's length: a length of the estimation above it is one in other units.
 constexpr double kLargestShare = 0.25;
-constexpr double kLargestRatio = 5;
 constexpr double kTightestKernel = 3;
 constexpr double kLostShare = 0.05;         // of good poses, by a gate on their normalised square
 constexpr double kMostContradicting = 0.1;  // of the returns: what moves fewer of them is no other configuration
@@ -61,12 +60,6 @@ std::string age_fault(const Subject& s) {
          " s: it would be refused as too old";
 }
 
-std::string ratio_fault(const Subject& s) {
-  if (!is_in_order(s.p, kSearchSource) || s.p.search_ratio_min <= kLargestRatio) return "";
-  return "the best competitor seldom explains a scan " + figure(kLargestRatio) +
-         " times worse: most searches would be ambiguous; 1.3 is 30 %";
-}
-
 std::string kernel_fault(const Subject& s) {
   if (s.p.kernel_width >= kTightestKernel) return "";
   return "returns more than " + figure(s.p.kernel_width) + " sigmas off do not count: good ones go with the bad, and poses are refused";
@@ -78,10 +71,6 @@ double refused_share(double gate) { return std::exp(-gate / 2) * (1 + gate / 2 +
 std::string gate_text(double gate) {
   return "the normalised square of a good pose's difference is 6 on average, and beyond " + figure(gate) + " in " +
          percent_text(refused_share(gate)) + " of them, which would be refused";
-}
-
-std::string start_gate_fault(const Subject& s) {
-  return !checks_starts(s.p) || refused_share(s.p.start_gate) <= kLostShare ? "" : gate_text(s.p.start_gate);
 }
 
 std::string innovation_fault(const Subject& s) {
@@ -157,7 +146,7 @@ std::string unused_parts_fault(const Subject& s) {
   return "the parts of the target are never looked at: set the range within which they are, as 1.5 times the largest of their range_m";
 }
 
-template <double MissionParameters::*kMember>
+template <double EstimationParameters::*kMember>
 std::string length_fault(const Subject& s) {
   const double value_m = s.p.*kMember, half_m = s.target->half_m();
   if (value_m <= kLargestShare * half_m) return "";
@@ -181,9 +170,7 @@ const Rules& estimation_rules() {
     {kWarning, kParameters, kValues, {"estimation.silhouette_sigma_m", "estimation.silhouette_band_m"}, silhouette_band_fault},
     {kWarning, kParameters, kValues, {"estimation.probe_step_m", "estimation.silhouette_band_m"}, probe_fault},
     {kWarning, kParameters, kValues, {"start.age_max_s", "filter.period_s"}, age_fault},
-    {kWarning, kParameters, kValues, {"search.ratio_min", "start.first", "start.second", "start.third", "start.fourth", "start.fifth"}, ratio_fault},
     {kWarning, kParameters, kValues, {"estimation.kernel_width"}, kernel_fault},
-    {kWarning, kParameters, kValues, {"start.gate"}, start_gate_fault},
     {kWarning, kParameters, kValues, {"tracking.innovation_max"}, innovation_fault},
     {kWarning, kParameters, kValues, {"tracking.initial.wx_degps", "tracking.initial.wy_degps", "tracking.initial.wz_degps"}, fast_start_fault},
     {kWarning, kParameters, kValues, {"link.silence_max_s", "filter.period_s"}, silence_fault},

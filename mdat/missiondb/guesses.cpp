@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "fsw/mission/image_format.hpp"
+#include "fsw/pose/recognition/search_limits.hpp"
 #include "mdat/missiondb/scenario_writer.hpp"
 
 namespace lasso::mdat {
@@ -111,10 +112,11 @@ std::string parts_line(const Known& known) {
 std::string rays_line(const Known& known) {
   const double around_m2 = 4 * known.mission.size.radius_m * known.mission.size.radius_m;
   const double returns = preset("scan.points") * std::min(1.0, known.surface.area_m2 / 4 / around_m2);
-  if (returns * preset("search.scans_max") >= preset("search.hits_min")) return "";
+  const SearchLimits limits;
+  if (returns * limits.scans_max >= limits.hits_min) return "";
   return "rays: of a scan of all around it some " + text(returns) + " of " + number_text(preset("scan.points")) +
-         " rays return, and a search of " + number_text(preset("search.scans_max")) + " scans needs " +
-         number_text(preset("search.hits_min")) + " (search.hits_min): start from a pose, or take more scan.points";
+         " rays return, and a search of " + std::to_string(limits.scans_max) + " scans needs " + number_text(limits.hits_min) +
+         ": start from a pose, or take more scan.points";
 }
 
 std::string image_line(const Known& known) {

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "cfg/capacities.hpp"
+#include "fsw/pose/recognition/search_limits.hpp"
 #include "mdat/missiondb/pattern_coverage.hpp"
 #include "mdat/missiondb/rule.hpp"
 #include "mdat/missiondb/value_row.hpp"
@@ -26,10 +27,7 @@ double most_returns(const MissionParameters& p) { return std::floor(p.points * (
 bool searches(const MissionParameters& p) { return is_in_order(p, kSearchSource) || checks_starts(p); }
 
 // Of one scan: what a search looks at.
-double most_looked_at(const MissionParameters& p) {
-  const double room = find_row(flight_rows(), "search.hits_min")->maximum / find_row(flight_rows(), "search.scans_max")->maximum;
-  return std::min(room, most_returns(p));
-}
+double most_looked_at(const MissionParameters& p) { return std::min(static_cast<double>(kSubsetHits), most_returns(p)); }
 
 std::string points_fault(const Subject& s) {
   if (s.p.points <= static_cast<double>(kMaxRays)) return "";
@@ -119,22 +117,21 @@ std::string gap_fault(const Subject& s) {
          figure(2 * 0.083 * half_m) + " m";
 }
 
-bool asks_too_many(const MissionParameters& p) { return p.search_hits_min > most_looked_at(p); }
+constexpr double kSearchHits = SearchLimits().hits_min;
 
-std::string hits_text(const MissionParameters& p) {
-  return "a search looks at " + number_text(most_looked_at(p)) + " returns of a scan of " + number_text(p.points) +
-         " rays at most, and joins no scan to one with too few: no pose would be recognised";
+bool has_too_few(const MissionParameters& p) { return kSearchHits > most_looked_at(p); }
+
+std::string search_hits_fault(const Subject& s) {
+  if (!searches(s.p) || !has_too_few(s.p)) return "";
+  return "a search looks at " + number_text(most_looked_at(s.p)) + " returns of a scan of " + number_text(s.p.points) +
+         " rays at most, needs " + number_text(kSearchHits) + ", and joins no scan to one with too few: no pose would be recognised";
 }
-
-std::string search_hits_fault(const Subject& s) { return searches(s.p) && asks_too_many(s.p) ? hits_text(s.p) : ""; }
-
-std::string unused_hits_fault(const Subject& s) { return !searches(s.p) && asks_too_many(s.p) ? hits_text(s.p) : ""; }
 
 std::string few_returns_fault(const Subject& s) {
   const double expected = std::floor(kReturningShare * most_returns(s.p));
-  if (!searches(s.p) || s.p.search_hits_min <= expected || asks_too_many(s.p)) return "";
+  if (!searches(s.p) || kSearchHits <= expected || has_too_few(s.p)) return "";
   return "of a target of unknown attitude some " + number_text(expected) + " of " + number_text(s.p.points) +
-         " rays return: most scans would be rejected as too_few_returns; fewer, or more scan.points";
+         " rays return, and a search needs " + number_text(kSearchHits) + ": most scans would be rejected as too_few_returns; take more";
 }
 
 std::string search_work_fault(const Subject& s) {
@@ -176,9 +173,8 @@ const Rules& scan_rules() {
     {kWarning, kParameters, kValues, {"scan.margin"}, margin_fault},
     {kWarning, kParameters, kValues, {"scan.pattern", "scan.duration_s", "filter.period_s", "estimation.deskew"}, skew_fault},
     {kWarning, kParameters, kTarget, {"scan.pattern", "scan.cycles_a", "scan.cycles_b", "scan.points", "scan.aimed_share", "scan.phase_step_turns", "scan.margin"}, gap_fault},
-    {kError, kParameters, kValues, {"search.hits_min", "scan.points", "sensor.dropout_probability", "start.check", "start.first", "start.second", "start.third", "start.fourth", "start.fifth"}, search_hits_fault},
-    {kWarning, kParameters, kValues, {"search.hits_min", "scan.points"}, unused_hits_fault},
-    {kWarning, kParameters, kValues, {"search.hits_min", "scan.points", "sensor.dropout_probability", "start.check", "start.first", "start.second", "start.third", "start.fourth", "start.fifth"}, few_returns_fault},
+    {kError, kParameters, kValues, {"scan.points", "sensor.dropout_probability", "start.check", "start.first", "start.second", "start.third", "start.fourth", "start.fifth"}, search_hits_fault},
+    {kWarning, kParameters, kValues, {"scan.points", "sensor.dropout_probability", "start.check", "start.first", "start.second", "start.third", "start.fourth", "start.fifth"}, few_returns_fault},
     {kWarning, kParameters, kValues, {"search.slice", "search.frames", "start.first", "start.second", "start.third", "start.fourth", "start.fifth"}, search_work_fault},
     {kError, kParameters, kValues, {"bearing.returns_min", "scan.points"}, bearing_returns_fault},
     {kWarning, kParameters, kValues, {"bearing.memory_s", "filter.period_s"}, bearing_memory_fault},

@@ -5,21 +5,12 @@
 #include <regex>
 #include <sstream>
 
+#include "mdat/missiondb/old_keys.hpp"
 #include "mdat/source/nearest.hpp"
 #include "mdat/source/sha256.hpp"
 
 namespace lasso::mdat {
 namespace {
-
-// A key of earlier versions, and what has taken its place.
-struct RenamedKey {
-  const char* key;
-  const char* now;
-};
-constexpr RenamedKey kRenamed[] = {
-    {"tracking.normalized_residual_max",
-     "is sensor.noise_tolerance now, 1.5 where nobody writes it: how many times the stated noise residuals may show"},
-    {"start.twin_margin", "is no longer asked: tracking.agreement_min tells such starts; leave the line out"}};
 
 std::string shortened(std::string text) {
   constexpr std::size_t kLongest = 60;
@@ -182,9 +173,8 @@ class TableWalk {
       const auto dot = row.key.rfind('.');
       if (dot != std::string::npos) candidates.push_back(row.key.substr(0, dot));
     }
-    for (const RenamedKey& renamed : kRenamed) {
-      if (prefix_ + path == renamed.key) return problems_.add(origin_of(key.source()), prefix_ + path, "", renamed.now);
-    }
+    const std::string old = remedy_of_old_key(path);
+    if (!old.empty()) return problems_.add(origin_of(key.source()), prefix_ + path, "", old);
     const std::string meant = nearest(path, candidates);
     const std::string remedy =
         meant.empty() ? "see cfg/mission.schema.json for the keys that exist" : "did you mean " + prefix_ + meant + "?";

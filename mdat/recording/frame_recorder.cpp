@@ -180,28 +180,22 @@ void FrameRecorder::on_packets(TimeUs boundary_us, ConstBytes packets) {
     rest = rest.subspan(packet.size(), rest.size() - packet.size());
   }
   if (content_ != RecordingContent::kReplay) write_told(boundary_us, packets);
-  take_scans(false);
+  on_scans(scans_.take(false));
 }
 
-// In the order in which they were begun. One that no later scan of its sensor follows may still be under way.
-void FrameRecorder::take_scans(bool all) {
-  if (!scans_) return;
-  const auto is_followed = [&](std::size_t at) {
-    return std::any_of(scans_->begin() + static_cast<std::ptrdiff_t>(at) + 1, scans_->end(),
-                       [&](const sim::SensorScan& later) { return later.sensor == (*scans_)[at].sensor; });
-  };
-  for (; scans_taken_ < scans_->size() && (all || is_followed(scans_taken_)); ++scans_taken_) {
-    sim::SensorRecording scan;
-    scan.push_back(std::move((*scans_)[scans_taken_]));  // nobody asks for its samples again
-    const TimeUs t_start_us = scan.front().t_start_us;
-    write("/sensor_scans", t_start_us, ros::packet_bytes({t_start_us, ""}, text_of(sim::to_bytes(scan))));
+void FrameRecorder::on_scans(sim::SensorRecording finished) {
+  for (sim::SensorScan& scan : finished) {
+    const TimeUs t_start_us = scan.t_start_us;
+    sim::SensorRecording alone;
+    alone.push_back(std::move(scan));
+    write("/sensor_scans", t_start_us, ros::packet_bytes({t_start_us, ""}, text_of(sim::to_bytes(alone))));
   }
 }
 
 std::uint64_t FrameRecorder::flush() { return writer_ ? writer_->flush() : 0; }
 
 void FrameRecorder::close(const std::vector<std::uint8_t>& image) {
-  take_scans(true);
+  on_scans(scans_.take(true));
   if (!writer_) return;
   if (!image.empty()) writer_->attach(kImageAttachment, "application/octet-stream", text_of(image), 0);
   writer_->add_metadata(kRecordingEnd, {{kBoundaries, std::to_string(boundaries_)}});

@@ -16,6 +16,7 @@
 #include "mdat/common/flight_image.hpp"
 #include "mdat/link/decode.hpp"
 #include "mdat/mcap/writer.hpp"
+#include "mdat/recording/finished_scans.hpp"
 #include "mdat/recording/message_tap.hpp"
 #include "mdat/recording/recording_head.hpp"
 #include "mdat/recording/ros_messages.hpp"
@@ -38,9 +39,9 @@ RecordingContent recording_content(const std::string& name);  // of "replay" and
 
 class FrameRecorder final : public RunListener {
  public:
-  // `mission` and `tap` outlive it. `scans`: where the run's sensors leave what they gave; each scan is taken out of it once it is whole.
-  // Without a file the tap alone gets the messages; `head` says the scenario then, too. Throws InputError where the file cannot be written;
-  // so do all calls.
+  // `mission` and `tap` outlive it. `scans`: where the run's sensors leave what they gave; each scan is taken out of it once it is whole;
+  // null: they come by on_scans. Without a file the tap alone gets the messages; `head` says the scenario then, too. Throws InputError
+  // where the file cannot be written; so do all calls.
   FrameRecorder(const std::filesystem::path& file, const CompiledMission& mission, const RecordingHead& head,
                 std::shared_ptr<sim::SensorRecording> scans, RecordingContent content = RecordingContent::kAll, MessageTap* tap = nullptr);
   // Of telemetry alone, without scans and true poses. `target`, which outlives it: its surface; null: it is not known.
@@ -50,6 +51,8 @@ class FrameRecorder final : public RunListener {
   void on_frame(const FlownFrame& frame) override;
   void on_commands(TimeUs slot_us, ConstBytes bytes) override;
   void on_pair(const TakenPair& pair) override;
+  // Whole scans that sensors gave, each once, behind the packets of the boundary at which they are known to be whole.
+  void on_scans(sim::SensorRecording finished);
   // A frame of which no more is known than what the component reports; one that has no scan leaves no message.
   void on_report(const PoseTelemetry& told);
   // All so far is in the file; returns its bytes, for who reads it while the run flies (mcap::IndexedFile). 0: there is no file.
@@ -69,7 +72,6 @@ class FrameRecorder final : public RunListener {
   void write_scan(const FlownFrame& frame);
   void write_picture(const std::string& camera, TimeUs t_us, const std::string& png, const ros::CameraModel& model);
   void write_event(TimeUs boundary_us, const DecodedPacket& packet);
-  void take_scans(bool all);
 
   const Mesh* target_;
   std::optional<SceneFrames> frames_;  // of a run; none: telemetry alone is known
@@ -77,9 +79,8 @@ class FrameRecorder final : public RunListener {
   MessageTap* tap_;
   std::map<std::string, std::uint16_t> schemas_, channels_;  // of the file
   std::unique_ptr<sim::RayCaster> model_;                    // as the component knows the target; null: only for replay
-  std::shared_ptr<sim::SensorRecording> scans_;
+  FinishedScans scans_{nullptr};
   RecordingContent content_;
-  std::size_t scans_taken_ = 0;
   bool scene_written_ = false;
   std::unique_ptr<const SensorSight> sight_;  // of a run
   std::unique_ptr<LoadedImage> image_;        // of kIterations

@@ -25,7 +25,7 @@ RunRecorders::RunRecorders(const std::vector<std::filesystem::path>& files, cons
     RecordingHead of_range = head;
     of_range.about["range"] = std::to_string(range);
     scans_.push_back(std::make_shared<sim::SensorRecording>());
-    recorders_.push_back(std::make_unique<FrameRecorder>(files[range], mission, of_range, scans_.back(), content));
+    recorders_.push_back(std::make_unique<BackgroundRecorder>(files[range], mission, of_range, scans_.back(), content));
   }
 }
 

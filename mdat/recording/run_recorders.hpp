@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "mdat/recording/frame_recorder.hpp"
+#include "mdat/recording/background_recorder.hpp"
 #include "mdat/run/simulation.hpp"
 
 namespace lasso::mdat {
@@ -15,7 +15,7 @@ std::vector<std::filesystem::path> recording_files(const std::filesystem::path& 
 
 class RunRecorders {
  public:
-  // `mission` outlives it; `head` is that of the run. Throws as FrameRecorder.
+  // `mission` outlives it; `head` is that of the run. Throws as BackgroundRecorder.
   RunRecorders(const std::vector<std::filesystem::path>& files, const CompiledMission& mission, const RecordingHead& head,
                RecordingContent content);
 
@@ -25,7 +25,7 @@ class RunRecorders {
 
  private:
   std::vector<std::shared_ptr<sim::SensorRecording>> scans_;
-  std::vector<std::unique_ptr<FrameRecorder>> recorders_;
+  std::vector<std::unique_ptr<BackgroundRecorder>> recorders_;
 };
 
 }  // namespace lasso::mdat

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "fsw/mode/searcher.hpp"
+#include "fsw/pose/recognition/pose_search.hpp"
 #include "mdat/common/cpu_clock.hpp"
 #include "mdat/common/progress_bar.hpp"
 #include "mdat/common/text.hpp"
@@ -21,7 +21,7 @@ constexpr std::uint32_t kSlice = 100'000;  // units of work; the result does not
 AcquiredScan acquire_scan(const Mission& mission, const RangeImage& image, PoseSearch& search, Workspace& workspace) {
   AcquiredScan acquired;
   const double begin_us = thread_cpu_us();
-  SearchLimits limits = search_limits(mission.parameters);
+  SearchLimits limits;
   limits.scans_max = 1;
   search.begin(limits);
   acquired.status = search.add_scan(mission, image, workspace);

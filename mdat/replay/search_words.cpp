@@ -23,10 +23,10 @@ std::string accepted(const std::optional<Competitor>& rival, double ratio_min) {
     return score_text(*rival) + format(": more than %.3g is enough by itself", alone_from(*rival, ratio_min));
   }
   if (rival->score_ratio >= ratio_min) {
-    return score_text(*rival) + format(": more than search.ratio_min %.3g", ratio_min) +
+    return score_text(*rival) + format(": more than the least ratio %.3g", ratio_min) +
            (rival->weighed ? "; and the noise of the returns agrees: " + costs_text(*rival) : "");
   }
-  return score_text(*rival) + format(": less than search.ratio_min %.3g; but the noise of the returns tells them apart: ", ratio_min) +
+  return score_text(*rival) + format(": less than the least ratio %.3g; but the noise of the returns tells them apart: ", ratio_min) +
          costs_text(*rival);
 }
 
@@ -41,11 +41,11 @@ std::string ambiguous(const std::optional<Competitor>& rival, double ratio_min) 
                        alone_from(*rival, ratio_min), 100 * rival->best_disagreement, rival->best_explained_cost, kFair);
   }
   if (rival->score_ratio < ratio_min) {
-    return score + format(": less than search.ratio_min %.3g", ratio_min) +
+    return score + format(": less than the least ratio %.3g", ratio_min) +
            (rival->weighed ? "; and the noise of the returns does not tell them apart: " + costs_text(*rival) : "");
   }
   return score +
-         format(": more than search.ratio_min %.3g; but less than %.3g; and the competitor explains the returns about as well: ", ratio_min,
+         format(": more than the least ratio %.3g; but less than %.3g; and the competitor explains the returns about as well: ", ratio_min,
                 alone_from(*rival, ratio_min)) +
          costs_text(*rival);
 }
@@ -67,14 +67,14 @@ std::optional<Competitor> decisive_rival(const PoseSearch& search, double ratio_
 std::string search_words(const SearchResult& result, const std::optional<Competitor>& rival, const SearchLimits& limits) {
   switch (result.reason) {
     case SearchReason::kTooFewReturns:
-      return format("%u returns are looked at; search.hits_min asks for %.0f", result.returns, limits.hits_min);
+      return format("%u returns are looked at; a search needs %.0f", result.returns, limits.hits_min);
     case SearchReason::kNotRegistered:
       return "the returns leave a direction of the best pose open";
     case SearchReason::kUnexplained:
-      return format("the best pose leaves %.0f %% unexplained; search.disagreement_max allows %.0f %%", 100 * result.disagreement,
+      return format("the best pose leaves %.0f %% unexplained; an accepted one leaves at most %.0f %%", 100 * result.disagreement,
                     100 * limits.disagreement_max);
     case SearchReason::kUnfinished:
-      return "search.work_max was used up before every other pose was excluded";
+      return "its work was used up before every other pose was excluded";
     case SearchReason::kDistinct:
       return accepted(rival, limits.ratio_min);
     case SearchReason::kCompetitor:

@@ -1,6 +1,6 @@
 #include "mdat/replay/single_scans.hpp"
 
-#include "fsw/mode/searcher.hpp"
+#include "fsw/pose/recognition/pose_search.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -15,7 +15,7 @@ double cost_of(const Registration& r) {
 }  // namespace
 
 void SingleScans::search(const RangeImage& image, const Pose& T_sensor_target) {
-  SearchLimits limits = search_limits(mission_.parameters);
+  SearchLimits limits;
   limits.scans_max = 1;
   search_->begin(limits);
   search_->suspect(T_sensor_target);

@@ -86,7 +86,7 @@ TEST_F(ImageServiceTest, TheImageBeforeIsActiveAgainByCommand) {
 }
 
 TEST(ImageTrial, AStartThatIsCheckedSaysNothingOfTheImage) {
-  VERIFIES("LASSO-MOD-184~4");
+  VERIFIES("LASSO-MOD-184~5");
   ImageTrial trial;
   trial.begin(2, 1);
   Registration registration;

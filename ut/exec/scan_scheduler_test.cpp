@@ -36,7 +36,6 @@ class ScanSchedulerTest : public ::testing::Test {
     p.range_min_m = 1;
     p.range_max_m = 50;
     p.fault_scans = 2;
-    p.look_scans = 3;
     p.coast_frames = 40;
     return p;
   }
@@ -219,10 +218,11 @@ TEST_F(ScanSchedulerTest, WithoutABearingTheSensorsLookInTurn) {
   far_->hidden = near_->hidden = true;
   ASSERT_EQ(component_->command_mode(M::kBearing), ModeRefusal::kNone);
   std::vector<int> sensors;
-  for (const PoseTelemetry& t : run(14)) {
+  for (const PoseTelemetry& t : run(28)) {
     if (static_cast<S>(t.sensor_reason) == S::kRangeUnknown) sensors.push_back(t.sensor);
   }
-  EXPECT_EQ(std::vector<int>(sensors.begin(), sensors.begin() + 7), (std::vector<int>{1, 1, 1, 0, 0, 0, 1}));
+  ASSERT_GE(sensors.size(), 21U);
+  for (std::size_t i = 0; i < 21; ++i) EXPECT_EQ(sensors[i], i / 10 == 1 ? 0 : 1) << i;
   near_->hidden = far_->hidden = false;
   const std::vector<PoseTelemetry> found = run(8);
   EXPECT_EQ(found.back().sensor, 1);

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -51,10 +53,13 @@ TEST(Parameters, IdsAreUniqueAndRiseInEachSection) {
   for (const ParameterRow& row : parameter_rows()) {
     EXPECT_TRUE(ids.insert(row.id).second) << row.key;
     EXPECT_LT(row.id, kNextParameterId) << row.key;
+    EXPECT_EQ(std::count(std::begin(kRetiredParameterIds), std::end(kRetiredParameterIds), row.id), 0) << row.key;
     const auto [last, first] = newest.emplace(section_of(row), row.id);
     EXPECT_TRUE(first || row.id > last->second) << row.key;
     last->second = row.id;
   }
+  // Each id that was ever given away is a row's, or retired.
+  EXPECT_EQ(ids.size() + std::size(kRetiredParameterIds), kNextParameterId);
 }
 
 // Of a table as a later version has it: a row is gone, and a new one stands in front of older ones.

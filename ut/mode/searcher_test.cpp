@@ -156,7 +156,9 @@ TEST_F(SearcherTest, NeedsNoOtherScanWhereTheTargetCannotHaveTurnedFar) {
 TEST_F(SearcherTest, MakesDoWithASingleScanWhereNoOtherIsAllowed) {
   VERIFIES("LASSO-MOD-116~1");
   look_from_the_right_side();
-  parameters().search_scans_max = 1;
+  SearchLimits limits;
+  limits.scans_max = 1;
+  searcher_ = std::make_unique<Searcher>(limits);
   search_to_the_end(1000000);
   EXPECT_EQ(found_.scans, 1u);
   EXPECT_EQ(state_.mode, TrackingMode::kStarting);
@@ -232,9 +234,11 @@ TEST_F(SearcherTest, ANewSearchForgetsTheOneBefore) {
 }
 
 TEST_F(SearcherTest, AScanAfterARejectionBeginsAnotherSearch) {
-  VERIFIES("LASSO-MOD-186~1");
+  VERIFIES("LASSO-MOD-186~2");
   look_from_the_right_side();
-  parameters().search_hits_min = 1e5;
+  SearchLimits limits;
+  limits.hits_min = 1e5;
+  searcher_ = std::make_unique<Searcher>(limits);
   for (std::uint32_t k = 0; k < 3; ++k) {
     const TrackStep step = follow(k);
     EXPECT_EQ(step.search.outcome, SearchOutcome::kRejected);
@@ -250,10 +254,12 @@ class SymmetricSearcherTest : public SearcherTest {
 
 TEST_F(SymmetricSearcherTest, AnAmbiguousTargetTakesFurtherScansAndThenASearchAnew) {
   VERIFIES("LASSO-MOD-120~1");
-  parameters().search_scans_max = 2;
-  parameters().search_ratio_min = 100;
-  parameters().search_disagreement_max = 1;
-  parameters().search_hits_min = 12;
+  SearchLimits limits;
+  limits.scans_max = 2;
+  limits.ratio_min = 100;
+  limits.disagreement_max = 1;
+  limits.hits_min = 12;
+  searcher_ = std::make_unique<Searcher>(limits);
   for (std::uint32_t k = 0; k < 4; ++k) {
     const TrackStep step = follow(k);
     EXPECT_EQ(step.search.outcome, SearchOutcome::kAmbiguous) << to_string(step.search.reason);
@@ -267,7 +273,9 @@ TEST_F(SymmetricSearcherTest, AnAmbiguousTargetTakesFurtherScansAndThenASearchAn
 TEST_F(SymmetricSearcherTest, IsGivenUpAfterItsFrames) {
   VERIFIES("LASSO-MOD-138~1 LASSO-MOD-142~1");
   parameters().search_frames = 2;
-  parameters().search_ratio_min = 100;
+  SearchLimits limits;
+  limits.ratio_min = 100;
+  searcher_ = std::make_unique<Searcher>(limits);
   const TrackState begun = state_;
   for (const bool recover : {true, false}) {
     state_ = begun;
@@ -278,28 +286,6 @@ TEST_F(SymmetricSearcherTest, IsGivenUpAfterItsFrames) {
     EXPECT_EQ(last.event, recover ? ModeEvent::kRecover : ModeEvent::kExhausted);
     EXPECT_EQ(last.after.mode, recover ? TrackingMode::kBearing : TrackingMode::kLost);
   }
-}
-
-TEST(SearchLimitsOfAMission, AreItsParameters) {
-  VERIFIES("LASSO-MOD-122~1");
-  MissionParameters p = preset_parameters();
-  const SearchLimits presets = search_limits(p);
-  EXPECT_EQ(presets.hits_min, SearchLimits().hits_min);
-  EXPECT_EQ(presets.disagreement_max, SearchLimits().disagreement_max);
-  EXPECT_EQ(presets.ratio_min, SearchLimits().ratio_min);
-  EXPECT_EQ(presets.scans_max, SearchLimits().scans_max);
-  EXPECT_EQ(presets.work_max, SearchLimits().work_max);
-  p.search_hits_min = 99;
-  p.search_disagreement_max = 0.3;
-  p.search_ratio_min = 2;
-  p.search_scans_max = 1;
-  p.search_work_max = 1234567;
-  const SearchLimits limits = search_limits(p);
-  EXPECT_EQ(limits.hits_min, 99);
-  EXPECT_EQ(limits.disagreement_max, 0.3);
-  EXPECT_EQ(limits.ratio_min, 2);
-  EXPECT_EQ(limits.scans_max, 1u);
-  EXPECT_EQ(limits.work_max, 1234567u);
 }
 
 }  // namespace

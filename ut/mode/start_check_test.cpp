@@ -68,7 +68,7 @@ class StartCheckTest : public MastTest {
 };
 
 TEST_F(StartCheckTest, ARightStartIsBelievedOnceTheSearchHasFoundNothingElse) {
-  VERIFIES("LASSO-MOD-184~4 LASSO-MOD-132~1");
+  VERIFIES("LASSO-MOD-184~5 LASSO-MOD-132~1");
   mission_.parameters.search_slice = 200000;
   start(small_error());
   std::uint32_t k = 0;
@@ -91,7 +91,7 @@ TEST_F(StartCheckTest, ARightStartIsBelievedOnceTheSearchHasFoundNothingElse) {
 
 // The limit is that of the axis that is known worst.
 TEST_F(StartCheckTest, AStartWhoseAttitudeIsKnownIsBelievedAtOnce) {
-  VERIFIES("LASSO-MOD-184~4");
+  VERIFIES("LASSO-MOD-184~5");
   StartOffer offer = rough_offer(mission_.parameters, scene_.at_zero, {}, 0);
   offer.covariance.diagonal().head<3>() = kKnownAttitude_rad * kKnownAttitude_rad * Vec3(0.1, 0.2, 0.99);
   ASSERT_EQ(start_track(mission_, InitialPoseSource::kHandover, offer, 0, state_), StartRefusal::kNone);
@@ -105,7 +105,7 @@ TEST_F(StartCheckTest, AStartWhoseAttitudeIsKnownIsBelievedAtOnce) {
 }
 
 TEST_F(StartCheckTest, AWrongStartThatItsScanConfirmsIsContradicted) {
-  VERIFIES("LASSO-MOD-184~4 LASSO-MOD-182~1 LASSO-MOD-134~2");
+  VERIFIES("LASSO-MOD-184~5 LASSO-MOD-182~1 LASSO-MOD-134~2");
   const TrackStep step = verdict_on_deceptive_start();
   EXPECT_EQ(step.registration.reason, PoseReason::kContradicted);
   EXPECT_EQ(step.refusal, StartRefusal::kContradicted);
@@ -115,7 +115,7 @@ TEST_F(StartCheckTest, AWrongStartThatItsScanConfirmsIsContradicted) {
 }
 
 TEST_F(StartCheckTest, AVerdictInAFrameWhoseScanIsLostRefusesTheStartAndTellsOfTheScan) {
-  VERIFIES("LASSO-MOD-184~4");
+  VERIFIES("LASSO-MOD-184~5");
   const TrackStep step = verdict_on_deceptive_start(true);
   EXPECT_EQ(step.registration.reason, PoseReason::kNoScan);
   EXPECT_EQ(step.refusal, StartRefusal::kContradicted);
@@ -124,15 +124,17 @@ TEST_F(StartCheckTest, AVerdictInAFrameWhoseScanIsLostRefusesTheStartAndTellsOfT
 
 // A search that is rejected tells all the same what explains the scan far better.
 TEST_F(StartCheckTest, AWrongStartIsContradictedByASearchThatIsRejected) {
-  VERIFIES("LASSO-MOD-184~4");
-  mission_.parameters.search_hits_min = 1e6;
+  VERIFIES("LASSO-MOD-184~5");
+  SearchLimits limits;
+  limits.hits_min = 1e6;
+  searcher_ = std::make_unique<Searcher>(limits);
   const TrackStep step = verdict_on_deceptive_start();
   EXPECT_EQ(step.search.outcome, SearchOutcome::kRejected);
   EXPECT_EQ(step.registration.reason, PoseReason::kContradicted);
 }
 
 TEST_F(StartCheckTest, AHeldStartThatIsContradictedIsNotBelievedEither) {
-  VERIFIES("LASSO-MOD-184~4");
+  VERIFIES("LASSO-MOD-184~5");
   const Vec3 axis = deceptive_axis();
   start_turned(axis);
   state_.held = true;
@@ -145,7 +147,7 @@ TEST_F(StartCheckTest, AHeldStartThatIsContradictedIsNotBelievedEither) {
 
 // Nothing in a scan can tell the poses of a symmetric target apart: the start decides, once a second scan says no more than the first.
 TEST_F(StartCheckTest, AStartIsBelievedWhoseCompetitorsExplainTheScanAsWell) {
-  VERIFIES("LASSO-MOD-184~4");
+  VERIFIES("LASSO-MOD-184~5");
   load(test::box_parameters(scene_));
   mission_.parameters.start_check = 1;
   mission_.parameters.search_slice = 2e7;
@@ -165,7 +167,7 @@ TEST_F(StartCheckTest, AStartIsBelievedWhoseCompetitorsExplainTheScanAsWell) {
 }
 
 TEST_F(StartCheckTest, TheSecondSearchHasTheLastWordWhereTheFirstIsUndecided) {
-  VERIFIES("LASSO-MOD-184~4");
+  VERIFIES("LASSO-MOD-184~5");
   mission_.parameters.search_slice = 1000;
   start(small_error());
   const TrackStep searching = frame(0);
@@ -187,7 +189,7 @@ TEST_F(StartCheckTest, TheSecondSearchHasTheLastWordWhereTheFirstIsUndecided) {
 }
 
 TEST_F(StartCheckTest, AnImplausibleScanEndsACheckThatWaitsForItsSecondSearch) {
-  VERIFIES("LASSO-MOD-184~4 LASSO-MOD-009~1");
+  VERIFIES("LASSO-MOD-184~5 LASSO-MOD-009~1");
   follow_unchecked();
   state_.check.stage = Stage::kAgain;
   state_.check.undecided = true;
@@ -199,7 +201,7 @@ TEST_F(StartCheckTest, AnImplausibleScanEndsACheckThatWaitsForItsSecondSearch) {
 }
 
 TEST_F(StartCheckTest, WhatWasSearchedOrIsFoundNearItsPredictionIsNotChecked) {
-  VERIFIES("LASSO-MOD-184~4");
+  VERIFIES("LASSO-MOD-184~5");
   start(small_error());
   state_.source = InitialPoseSource::kSearch;
   EXPECT_EQ(try_frame(0).after.mode, TrackingMode::kTracking);
@@ -216,7 +218,7 @@ TEST_F(StartCheckTest, WhatWasSearchedOrIsFoundNearItsPredictionIsNotChecked) {
 
 // The verdict comes in a frame whose scan is lost: the next one confirms the start without another search.
 TEST_F(StartCheckTest, ALostScanDelaysTheVerdictAndCountsAsOne) {
-  VERIFIES("LASSO-MOD-184~4");
+  VERIFIES("LASSO-MOD-184~5");
   mission_.parameters.search_slice = 1000;
   start(small_error());
   frame(0);
@@ -232,7 +234,7 @@ TEST_F(StartCheckTest, ALostScanDelaysTheVerdictAndCountsAsOne) {
 
 // Each scan that would confirm the start gives it all of start.frames again.
 TEST_F(StartCheckTest, ScansThatAreLostUseUpTheFramesOfAStartOnlyInARow) {
-  VERIFIES("LASSO-MOD-184~4");
+  VERIFIES("LASSO-MOD-184~5");
   mission_.parameters.search_slice = 1000;
   start(small_error());
   frame(0);
@@ -245,7 +247,7 @@ TEST_F(StartCheckTest, ScansThatAreLostUseUpTheFramesOfAStartOnlyInARow) {
 
 // The search speaks of the pose that was confirmed, not of one that the scans have left for: that has to be confirmed by itself.
 TEST_F(StartCheckTest, ATrackThatItsScansContradictIsConfirmedAndCheckedAnew) {
-  VERIFIES("LASSO-MOD-184~4 LASSO-MOD-009~1");
+  VERIFIES("LASSO-MOD-184~5 LASSO-MOD-009~1");
   follow_unchecked();
   std::uint32_t k = 10;
   mission_.parameters.search_slice = 2e7;
@@ -263,7 +265,7 @@ TEST_F(StartCheckTest, ATrackThatItsScansContradictIsConfirmedAndCheckedAnew) {
 
 // A frame that is not ready at its boundary is dropped whole: the check that it began has no scan, and the next scan begins another.
 TEST_F(StartCheckTest, ACheckWhoseFrameWasDroppedBeginsAnew) {
-  VERIFIES("LASSO-MOD-184~4 LASSO-EXE-003~1");
+  VERIFIES("LASSO-MOD-184~5 LASSO-EXE-003~1");
   mission_.parameters.search_slice = 1000;
   start(small_error());
   const TrackStep dropped = try_frame(0);
@@ -284,7 +286,7 @@ TEST_F(StartCheckTest, ACheckWhoseFrameWasDroppedBeginsAnew) {
 
 // The check of a frame that was dropped has the number that the next search gets.
 TEST_F(StartCheckTest, ASearchDoesNotGoOnWithACheck) {
-  VERIFIES("LASSO-MOD-184~4 LASSO-MOD-111~1");
+  VERIFIES("LASSO-MOD-184~5 LASSO-MOD-111~1");
   start(small_error());
   ASSERT_EQ(try_frame(0).after.searches, 1u);
   change_mode(ModeEvent::kSearch, state_);
@@ -296,7 +298,7 @@ TEST_F(StartCheckTest, ASearchDoesNotGoOnWithACheck) {
 }
 
 TEST_F(StartCheckTest, AnotherStartBeginsItsOwnCheck) {
-  VERIFIES("LASSO-MOD-184~4");
+  VERIFIES("LASSO-MOD-184~5");
   mission_.parameters.search_slice = 1000;
   start(small_error());
   frame(0);

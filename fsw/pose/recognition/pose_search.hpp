@@ -18,12 +18,12 @@
 #include "fsw/pose/recognition/hypothesis_list.hpp"
 #include "fsw/pose/recognition/hypothesis_refinement.hpp"
 #include "fsw/pose/recognition/robust_refinement.hpp"
+#include "fsw/pose/recognition/search_limits.hpp"
 #include "fsw/pose/recognition/search_result.hpp"
 #include "fsw/pose/scan/work_units.hpp"
 
 namespace lasso {
 
-constexpr std::size_t kMaxSearchScans = 3;
 // At estimation.iterations_max 12: a registration on the whole subset, which is then weighed by regions and scored; or a hypothesis that
 // is aligned from farther away, refined fast, scored, and weighed as it was aligned.
 constexpr std::uint32_t kLargestRobustStep =
@@ -32,14 +32,6 @@ constexpr std::uint32_t kLargestFastRefine = distance_alignment_work(kFastRefine
                                              look_work(kFastRefinePoints, 14) + score_work(kSubsetHits, kSubsetMisses) +
                                              weigh_work(kFastRefinePoints);
 constexpr std::uint32_t kLargestStep = kLargestRobustStep > kLargestFastRefine ? kLargestRobustStep : kLargestFastRefine;
-
-struct SearchLimits {
-  double hits_min = 80;  // returns looked at
-  double disagreement_max = 0.20;
-  double ratio_min = 1.3;  // score of the best distinct competitor over that of the pose; or what the returns make of both by their noise
-  std::uint32_t scans_max = kMaxSearchScans;
-  std::uint32_t work_max = 2'500'000;  // units of work on all scans; what they leave open makes the result ambiguous
-};
 
 class PoseSearch {
  public:

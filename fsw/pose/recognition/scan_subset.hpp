@@ -1,12 +1,12 @@
 // What a search keeps of a scan: a few hundred returns, spread out, and some of the rays that returned nothing.
 #pragma once
 
+#include "fsw/pose/recognition/search_limits.hpp"
 #include "fsw/pose/scan/workspace.hpp"
 
 namespace lasso {
 
 constexpr std::size_t kPoolRays = 1024;     // returns and misses that the choice is made from
-constexpr std::size_t kSubsetHits = 224;    // the first of them are as far apart as any as many
 constexpr std::size_t kSubsetMisses = 192;  // that pass by the target
 constexpr std::size_t kRegions = 32;        // of the target, as the scan shows it: around the first returns of the subset
 

@@ -8,6 +8,9 @@ namespace {
 
 using N = FlightNumber;
 
+// With estimation.stop_translation_m: 0.1 mm at half a metre from the origin. It counts where the noise shows less than this alone, as a
+// step below a sigma of the pose ends a registration, too (docs/decisions/registration-passes.md).
+constexpr double kStopRotation_rad = 0.01 * kRadPerDeg;
 constexpr double kInsignificant = 1;       // squared step in sigmas^2
 constexpr double kOwnUncertainty = 8.56;   // the same: below it are four of five errors of a pose with six directions (chi squared)
 constexpr double kNarrowestKernel = 1e-4;  // of the kernel's squared width
@@ -17,7 +20,7 @@ constexpr double kNoCost = 1e300;
 constexpr double kLeastUsable = 0.5;  // a pose at which fewer of the returns could be inliers is none of theirs
 
 bool is_small(const Vec6& x, const MissionParameters& p) {
-  return x.head<3>().squaredNorm() < p.stop_rotation_rad * p.stop_rotation_rad &&
+  return x.head<3>().squaredNorm() < kStopRotation_rad * kStopRotation_rad &&
          x.tail<3>().squaredNorm() < p.stop_translation_m * p.stop_translation_m;
 }
 

@@ -27,7 +27,7 @@ enum class PoseReason : std::uint8_t {
   kOverrun = 10,        // the estimate was not ready at its boundary: dropped whole
   kImplausible = 11,    // the filter's prediction excludes this pose
   kOnlyBearing = 12,    // a full-field scan: no attitude is looked for
-  kFarFromStart = 13,   // farther from the prediction that it was to confirm than start.gate allows
+  kFarFromStart = 13,   // farther from the prediction that it was to confirm than 25 squared sigmas
   kSearching = 14,      // no attitude is known: it is looked for
   kPartDisagrees = 15,  // of a part that is elsewhere than the others say
   kTooFast = 16,        // the prediction moves too far within the scan for its points to be brought to one time

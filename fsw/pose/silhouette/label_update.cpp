@@ -5,6 +5,9 @@
 namespace lasso {
 namespace {
 
+// Probability that a label of a ray is wrong, dropouts apart: one that lies five sigmas of the hits on the wrong side is likelier wrong
+// than they are (docs/experiments/2026-11-26-aimed-scans.md).
+constexpr double kLabelError = 1e-3;
 constexpr double kDamping = 0.7;
 constexpr double kConverged = 1e-3;
 
@@ -36,7 +39,7 @@ Moments label_moments(double mean, double variance, double error) {
 }
 
 double wrong_label_probability(const Label& label, const MissionParameters& p) {
-  return label.inside < 0 ? p.label_error + (1 - p.label_error) * p.dropout_probability : p.label_error;
+  return label.inside < 0 ? kLabelError + (1 - kLabelError) * p.dropout_probability : kLabelError;
 }
 
 // Moves the belief by a change of one site's Gaussian along a, Ca = C a: precision += change, information += change_information.

@@ -41,12 +41,9 @@ TEST_F(EstimationRules, TimesAreNotShorterThanAPeriod) {
   expect_edge("link.silence_max_s = 0.2", "link.silence_max_s = 0.19", "link.silence_max_s: 0.19", "which is 0.2 s");
 }
 
-// Tables of chi-square, 6 degrees of freedom: 12.59 is exceeded with 5 %, 9 with 17.4 %, 1 with 98.6 %.
+// Tables of chi-square, 6 degrees of freedom: 12.59 is exceeded with 5 %, 9 with 17.4 %.
 TEST_F(EstimationRules, GatesLetGoodPosesPass) {
   VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
-  expect_edge("start.gate = 12.6", "start.gate = 12.5", "start.gate: 12.5", "5.17 % of them");
-  expect_said(said("start.gate = 1"), "start.gate: 1", "98.6 % of them");
-  EXPECT_EQ(said("start.gate = 1\nstart.check = false"), "") << "not asked";
   expect_edge("tracking.innovation_max = 3.55", "tracking.innovation_max = 3", "tracking.innovation_max: 3", "17.4 % of them");
 }
 
@@ -96,8 +93,6 @@ TEST_F(EstimationRules, LengthsAreSmallAgainstTheTarget) {
 TEST_F(EstimationRules, LimitsLeaveGoodPosesTheirRoom) {
   VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
   expect_edge("estimation.kernel_width = 3", "estimation.kernel_width = 2", "estimation.kernel_width: 2", "more than 2 sigmas off");
-  expect_edge("start.fifth = 'search'\nsearch.ratio_min = 5", "start.fifth = 'search'\nsearch.ratio_min = 30", "search.ratio_min: 30",
-              "1.3 is 30 %");
   const std::string pose = "tracking.initial.present = true\ntracking.initial.z_m = 5\ntracking.initial.wx_degps = ";
   expect_edge(pose + "83", pose + "300", "tracking.initial.wx_degps: 300", "turns by 54 deg in a scan");
 }

@@ -17,7 +17,7 @@ TEST_F(ScanRules, RaysThatDropOutAreNoInliers) {
 TEST_F(ScanRules, CyclesFitThePattern) {
   VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
   const std::string fault = "expected at most half of the pattern's 64 rays";
-  const std::string values = "scan.points = 128\nscan.aimed_share = 0.5\nsearch.hits_min = 12\n";
+  const std::string values = "scan.points = 128\nscan.aimed_share = 0.5\nstart.check = false\n";
   EXPECT_EQ(said(values + "scan.cycles_a = 32\nscan.cycles_b = 31").find(fault), std::string::npos);
   expect_said(said(values + "scan.cycles_a = 33\nscan.cycles_b = 32"), "scan.cycles_a: 33", fault);
   expect_said(said(values + "scan.cycles_a = 32\nscan.cycles_b = 33"), "scan.cycles_b: 33", fault);
@@ -64,10 +64,11 @@ TEST_F(ScanRules, ThePatternLeavesNoGaps) {
 
 TEST_F(ScanRules, ASearchHasTheReturnsAndTheWorkThatItAsksFor) {
   VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
-  expect_edge("search.hits_min = 224", "search.hits_min = 225", "error: ", "looks at 224 returns of a scan of 1024 rays at most");
-  expect_said(said("search.hits_min = 600\nscan.points = 192"), "search.hits_min: 600", "192 returns of a scan of 192 rays at most");
-  expect_edge("start.check = false", "start.check = false\nsearch.hits_min = 600", "warning: ", "looks at 224 returns");
-  expect_edge("scan.points = 267", "scan.points = 266", "search.hits_min: 80", "some 79 of 266 rays return");
+  const std::string half = "sensor.dropout_probability = 0.5\nscan.points = ";
+  expect_said(said(half + "158"), "error: ", "scan.points: 158: a search looks at 79 returns of a scan of 158 rays at most, needs 80");
+  EXPECT_EQ(said(half + "160").find("error: "), std::string::npos);
+  EXPECT_EQ(said("start.check = false\n" + half + "158").find("a search looks at"), std::string::npos) << "none is made";
+  expect_edge("scan.points = 267", "scan.points = 266", "scan.points: 266", "some 79 of 266 rays return, and a search needs 80");
   const std::string search = "start.fifth = 'search'\n";
   expect_edge(search + "search.slice = 6000", search + "search.slice = 1000", "search.slice: 1000", "a search does 2e+05 units of work");
 }

@@ -29,8 +29,7 @@ TEST(SearchWords, SayByWhichRuleACompetitorStands) {
               {"2.30 times", "less than 3.9", "12 % unexplained", "1.70", "another object"});
   const Competitor alike{1.03, true, 1.05, 1.0, 1.0, 0.01, 1};
   ASSERT_FALSE(is_outscored(alike, 1.3));
-  expect_said(words(SearchReason::kCompetitor, alike),
-              {"1.03 times", "less than search.ratio_min 1.3", "does not tell them apart", "1.05"});
+  expect_said(words(SearchReason::kCompetitor, alike), {"1.03 times", "less than the least ratio 1.3", "does not tell them apart", "1.05"});
   const Competitor as_good{1.5, true, 1.1, 1.0, 1.0, 0.01, 1};
   ASSERT_FALSE(is_outscored(as_good, 1.3));
   expect_said(words(SearchReason::kCompetitor, as_good), {"1.50 times", "less than 1.95", "explains the returns about as well", "1.10"});
@@ -41,22 +40,22 @@ TEST(SearchWords, SayByWhichRuleThePoseIsAccepted) {
   const Competitor by_noise{1.03, true, 4.1, 1.0, 1.0, 0.01, 1};
   ASSERT_TRUE(is_outscored(by_noise, 1.3));
   expect_said(words(SearchReason::kDistinct, by_noise),
-              {"1.03 times", "less than search.ratio_min 1.3", "noise of the returns tells them apart", "4.10", "1.00"});
+              {"1.03 times", "less than the least ratio 1.3", "noise of the returns tells them apart", "4.10", "1.00"});
   const Competitor far{4.2, false, 0, 1.0, 1.0, 0.01, 1};
   ASSERT_TRUE(is_outscored(far, 1.3));
   expect_said(words(SearchReason::kDistinct, far), {"4.20 times", "more than 1.95"});
   const Competitor both{1.5, true, 2.0, 1.0, 1.0, 0.01, 1};
   ASSERT_TRUE(is_outscored(both, 1.3));
-  expect_said(words(SearchReason::kDistinct, both), {"1.50 times", "more than search.ratio_min 1.3", "agrees"});
+  expect_said(words(SearchReason::kDistinct, both), {"1.50 times", "more than the least ratio 1.3", "agrees"});
   expect_said(words(SearchReason::kDistinct), {"no competitor"});
 }
 
 TEST(SearchWords, SayWhatIsAskedForAndWhatIsThere) {
   VERIFIES("LASSO-MDT-072~1");
-  expect_said(words(SearchReason::kTooFewReturns), {"61 returns", "search.hits_min", "80"});
-  expect_said(words(SearchReason::kUnexplained), {"34 %", "search.disagreement_max", "20 %"});
+  expect_said(words(SearchReason::kTooFewReturns), {"61 returns", "a search needs", "80"});
+  expect_said(words(SearchReason::kUnexplained), {"34 %", "at most", "20 %"});
   expect_said(words(SearchReason::kNotRegistered), {"direction"});
-  expect_said(words(SearchReason::kUnfinished), {"search.work_max"});
+  expect_said(words(SearchReason::kUnfinished), {"work was used up"});
 }
 
 }  // namespace

@@ -175,7 +175,6 @@ TEST_F(EstimatorTest, SaysWhatItHasWhenTheIterationsEnd) {
   scan_.sigma_m = 1e-3;
   parameters().iterations_max = 1;
   parameters().stop_translation_m = 0;
-  parameters().stop_rotation_rad = 0;
   const Registration r = estimate_from(0.03, 0.01);
   EXPECT_EQ(r.stop, StopReason::kIterationLimit);
   EXPECT_EQ(r.reason, PoseReason::kNotConverged);

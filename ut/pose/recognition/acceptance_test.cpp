@@ -141,7 +141,7 @@ TEST_F(SymmetricVerdictTest, ASymmetricTargetIsAmbiguousWithItsCandidates) {
 
 // A target that turns twists its scan: the best of equal poses is as the search has registered it, the one of a track a little aside.
 TEST_F(SymmetricVerdictTest, ContradictsNoPoseThatTheReturnsLeadToAnEqualOf) {
-  VERIFIES("LASSO-MOD-184~4");
+  VERIFIES("LASSO-MOD-184~5");
   for (int i = 0; i < 10; ++i) {
     scan_.T_sensor_target = test::random_box_pose(random_);
     for (int k = 0; k < 3; ++k) scan_.rates.omega_radps[k] = 6 * kRadPerDeg * random_.normal();
@@ -159,7 +159,7 @@ TEST_F(SymmetricVerdictTest, ContradictsNoPoseThatTheReturnsLeadToAnEqualOf) {
 
 // A pose that is held against a search of its own scan.
 TEST_F(VerdictTest, ContradictsAPoseThatExplainsTheScanWorseAndNoOther) {
-  VERIFIES("LASSO-MOD-184~4");
+  VERIFIES("LASSO-MOD-184~5");
   scan_.T_sensor_target = test::random_box_pose(random_);
   const auto turned = [&](double deg) {
     Pose pose = scan_.T_sensor_target;
@@ -177,7 +177,7 @@ TEST_F(VerdictTest, ContradictsAPoseThatExplainsTheScanWorseAndNoOther) {
 
 // What a report says of a search is what it decided by: accepted where all that compete are left behind, ambiguous where one is not.
 TEST_F(VerdictTest, TheRivalsThatItGivesAreThoseThatItDecidedBy) {
-  VERIFIES("LASSO-MOD-184~4");
+  VERIFIES("LASSO-MOD-184~5");
   scan_.T_sensor_target = test::random_box_pose(random_);
   const auto image = scan_at(0);
   const auto outcome = [&] {
@@ -203,7 +203,7 @@ TEST_F(VerdictTest, TheRivalsThatItGivesAreThoseThatItDecidedBy) {
 }
 
 TEST_F(VerdictTest, ContradictsNothingWhereItIsAmbiguousUnlessByItsRatioNorWhereItIsRejected) {
-  VERIFIES("LASSO-MOD-184~4");
+  VERIFIES("LASSO-MOD-184~5");
   scan_.T_sensor_target = test::random_box_pose(random_);
   Pose turned = scan_.T_sensor_target;
   turned.q = normalized(exp_so3(Vec3(0, kPi, 0)) * turned.q);

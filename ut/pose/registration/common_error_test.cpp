@@ -14,7 +14,7 @@ class CommonErrorTest : public EstimatorTest {
     scan_.sigma_m = 0;
     parameters().silhouettes = 0;
     parameters().noise_estimated = 0;  // a scan without noise would claim to be without error
-    parameters().stop_translation_m = parameters().stop_rotation_rad = 1e-7;
+    parameters().stop_translation_m = 1e-7;
   }
 
   static double error_m(const MissionParameters& p, double range_m) {
@@ -90,7 +90,6 @@ TEST_F(CommonErrorTest, PosesOfNoisyScansWithSilhouettesAreWithinTheirCovariance
   VERIFIES("LASSO-REG-030~1 LASSO-REG-029~1");
   parameters().silhouettes = parameters().noise_estimated = 1;
   parameters().stop_translation_m = 1e-4;
-  parameters().stop_rotation_rad = 0.01 * kRadPerDeg;
   parameters().common_sigma_m = 0.003;  // three times the noise: farther off, labels are not linear
   parameters().common_sigma_rad = 2e-3;
   scan_.sigma_m = 1e-3;

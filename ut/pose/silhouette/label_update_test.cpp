@@ -38,8 +38,10 @@ Vec6 generic_direction(test::Generator& random) {
   return a;
 }
 
+constexpr double kWrong = 1e-3;  // probability that a label is wrong, dropouts apart
+
 double likelihood(const Label& label, const MissionParameters& p, const Vec6& x) {
-  const double e = label.inside < 0 ? p.label_error + (1 - p.label_error) * p.dropout_probability : p.label_error;
+  const double e = label.inside < 0 ? kWrong + (1 - kWrong) * p.dropout_probability : kWrong;
   return e + (1 - e) * phi(label.inside * (label.d_m + label.a.dot(x)) / p.silhouette_sigma_m);
 }
 
@@ -88,7 +90,7 @@ TEST(Labels, OneLabelGivesTheExactMoments) {
     const double v = a.dot(prior.covariance * a);
     const double own = std::sqrt(v + p.silhouette_sigma_m * p.silhouette_sigma_m);
     const double z = label.inside * label.d_m / own;
-    const double e = p.label_error;
+    const double e = kWrong;
     const double slope = (1 - e) * std::exp(-z * z / 2) / std::sqrt(2 * kPi) / ((e + (1 - e) * phi(z)) * own);
     const double curvature = slope * (slope + z / own);
     if (!(curvature > 0)) continue;
@@ -175,7 +177,6 @@ TEST(Labels, BeliefsOfAllScalesStayFiniteAndPositive) {
   test::Generator random(17);
   MissionParameters p = preset_parameters();
   p.silhouette_sigma_m = 1e-6;
-  p.label_error = 1e-6;
   for (int trial = 0; trial < 200; ++trial) {
     PoseBelief belief = generic_belief(random);
     const Vec6 loose = generic_direction(random);
