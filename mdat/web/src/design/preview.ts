@@ -52,6 +52,8 @@ export class Preview {
   readonly problem: Signal<string> = signal("");
   readonly hits: ReadonlySignal<number> = computed(() => this.shown.value?.rays.hit.reduce((sum, hit) => sum + hit, 0) ?? 0);
   private readonly mission: Mission;
+  /** The text of what is shown. */
+  private shownText = "";
   private asked = 0;
 
   /** Of a scenario of this name at first; then of the one that is designed. */
@@ -90,11 +92,13 @@ export class Preview {
     const answer = await postJson<PreviewAnswer>(withQuery("/api/mission/preview", { id: this.mission.id }), wish);
     if (mine !== this.asked) return;
     this.problem.value = answer.problem ?? "";
-    if (answer.problem === undefined) this.shown.value = answer;
+    if (answer.problem !== undefined) return;
+    this.shownText = wish.text;
+    this.shown.value = answer;
   }
 
-  /** The surface of the text as binary glTF. */
+  /** The surface of what is shown as binary glTF; the text may have a problem by now. */
   surface(): Promise<ArrayBuffer> {
-    return postBinary(withQuery("/api/mission/surface", { id: this.mission.id }), { text: this.mission.text.peek() });
+    return postBinary(withQuery("/api/mission/surface", { id: this.mission.id }), { text: this.shownText });
   }
 }
