@@ -78,6 +78,54 @@ TEST_F(MinimaTest, SlatsLookTheSameAfterEachOfThem) {
   EXPECT_LT(at_radius.trace(), 1.02 * variance_along(found.spread)) << "all else hardly changes on the way";
 }
 
+// The next slat is beyond the last place that is looked at, whose cost still falls towards it.
+class WideMinimaTest : public MinimaTest {
+ protected:
+  static constexpr double kWidePeriod_m = 0.07;
+  static const Mission& mission() {
+    static const test::LoadedImage loaded(slats(3, kWidePeriod_m));
+    return loaded.mission;
+  }
+  WideMinimaTest() : MinimaTest(mission(), slats(3, kWidePeriod_m)) {}
+};
+
+TEST_F(WideMinimaTest, FromALastPlaceThatFallsTheMinimumBeyondIsReached) {
+  VERIFIES("LASSO-REG-032~2");
+  ASSERT_GT(kWidePeriod_m, 6 * kSpacing * radius_m());
+  parameters().sigma0_m = scan_.sigma_m = 8e-3;
+  scan();
+  keep_middle(0.11);
+  const Minima found = minima(1e-3, shifted(0.9 * kWidePeriod_m));
+  EXPECT_TRUE(found.is_elsewhere);
+  EXPECT_TRUE(found.are_apart);
+  EXPECT_NEAR((found.T_target_sensor * scan_.T_sensor_target.p).x(), kWidePeriod_m, 5e-3) << "where the middle slat is taken to be";
+}
+
+// One slat, whose neighbours are not there.
+class OneSlatTest : public MinimaTest {
+ protected:
+  static const Mission& mission() {
+    static const test::LoadedImage loaded(slats(0, 0.07));
+    return loaded.mission;
+  }
+  OneSlatTest() : MinimaTest(mission(), slats(0, 0.07)) {}
+};
+
+// Where the look begins all else is not yet as the hits have it: the places beside it cost less, and lead back.
+TEST_F(OneSlatTest, ADescentThatEndsWhereItBeganIsNoOtherMinimum) {
+  VERIFIES("LASSO-REG-032~2");
+  const HitSolution hits = register_first(mission_, truth(), *workspace_);
+  Profile profile(mission_, Vec6::Unit(3), hits.usable, *workspace_);
+  Pose off = hits.T_target_sensor;
+  off.p.z() += 0.003;
+  const CostedPose from = profile.cost_at(off);
+  ASSERT_LT(profile.draw_at(off, kSpacing * radius_m(), 1).cost, from.cost);
+  const Minima found = find_minima(mission_, from, 1e-3, truth(), profile);
+  EXPECT_FALSE(found.is_elsewhere);
+  EXPECT_FALSE(found.are_apart);
+  EXPECT_EQ(found.spread, Mat6(Mat6::Zero()));
+}
+
 // Two or three of them are within reach on either side.
 class CloseMinimaTest : public MinimaTest {
  protected:
