@@ -131,6 +131,26 @@ TEST_F(Recording, ForReplayIsSmallAndIsFlownAgain) {
   EXPECT_NE(replay.out.find("telemetry: the same as recorded"), std::string::npos) << replay.out;
 }
 
+// What nobody can mend where it lies: its place in the recording, and what flies it.
+TEST_F(Recording, WhoseMissionIsOfAnEarlierVersionSaysWhatFliesIt) {
+  VERIFIES("LASSO-REC-002~1 LASSO-GND-003~1");
+  record("--scenario spin");
+  const std::string mission = work_.read("missions/test.toml");
+  std::string older = mission;
+  older.replace(older.find("check = false "), 14, "gate = 36.0  #");
+  std::string bytes = work_.read("out/run.mcap");
+  const std::size_t at = bytes.find(mission);
+  ASSERT_NE(at, std::string::npos);
+  bytes.replace(at, mission.size() + 4, older + std::string(4, '\0'));  // a checksum of 0 is none
+  work_.write("older.mcap", bytes);
+  for (const char* more : {"", " --mission missions/test.toml"}) {
+    const Answer answer = work_.mdat(std::string("replay older.mcap") + more);
+    EXPECT_EQ(answer.exit_code, 2) << answer.out;
+    EXPECT_NE(answer.err.find("older.mcap: this mdat refuses its mission; that of commit "), std::string::npos) << answer.err;
+    EXPECT_NE(answer.err.find("\nolder.mcap: mission/test.toml:40:1: start.gate: is 25 in every mission"), std::string::npos) << answer.err;
+  }
+}
+
 // The disk takes 600 kB of a file, some ten frames. With the signal ignored, a write beyond them fails as on a full disk.
 TEST_F(Recording, ThatTheDiskRefusesEndsTheRun) {
   VERIFIES("LASSO-REC-046~1");

@@ -268,6 +268,9 @@ TEST(MissionExplain, SaysWhereAValueCameFrom) {
   const Answer unknown = work.mdat("mission explain points");
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_NE(unknown.err.find("did you mean scan.points?"), std::string::npos) << unknown.err;
+  const Answer old = work.mdat("mission explain start.gate");
+  EXPECT_EQ(old.exit_code, 2);
+  EXPECT_EQ(old.err, "mdat: mission explain: start.gate: is 25 in every mission: leave it out\n");
 }
 
 }  // namespace

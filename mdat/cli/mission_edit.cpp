@@ -12,6 +12,7 @@
 #include "mdat/common/text.hpp"
 #include "mdat/missiondb/key_facts.hpp"
 #include "mdat/missiondb/mission_diff.hpp"
+#include "mdat/missiondb/old_keys.hpp"
 #include "mdat/source/nearest.hpp"
 
 namespace lasso::mdat {
@@ -85,6 +86,8 @@ std::string table_text(const std::string& table) {
 }
 
 [[noreturn]] void refuse_key(const std::string& key) {
+  const std::string old = remedy_of_old_key(key);
+  if (!old.empty()) throw InputError("mission explain: " + key + ": " + old);
   std::vector<std::string> keys = all_keys();
   for (const KeyFacts& facts : keys_in("")) keys.push_back(facts.key);
   const std::string last = key.substr(key.rfind('.') == std::string::npos ? 0 : key.rfind('.') + 1);

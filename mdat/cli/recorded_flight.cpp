@@ -87,7 +87,27 @@ void RecordedFlight::check_signatures(const Key& master) {
 MissionInput RecordedFlight::mission(const std::vector<std::string>& more) const {
   std::vector<std::string> all = lines_of(word("settings"));
   all.insert(all.end(), more.begin(), more.end());
-  return load_mission_input(folder_.mission(), all, options_.scenario);
+  try {
+    return load_mission_input(folder_.mission(), all, options_.scenario);
+  } catch (const MissionError& error) {
+    throw MissionError(problems_in_recording(error, more.empty()));
+  }
+}
+
+// Places in the files that are attached: those that were read are gone when this is. `as_flown`: nobody has changed anything, so that
+// another version has recorded it.
+std::vector<Problem> RecordedFlight::problems_in_recording(const MissionError& error, bool as_flown) const {
+  std::vector<Problem> problems = error.problems();
+  const std::string folder = folder_.file("").string();
+  for (Problem& problem : problems) {
+    const bool attached = problem.file.rfind(folder, 0) == 0;
+    if (attached) problem.file.erase(0, folder.size());
+    if (attached || as_flown) problem.file = file_ + ": " + problem.file;
+  }
+  if (as_flown)
+    problems.push_back(
+        {file_, 0, 0, "", "", "this mdat refuses its mission; that of commit " + word("commit") + " flew it, and flies it again"});
+  return problems;
 }
 
 std::vector<std::string> RecordedFlight::changed_settings() const { return lines_of(word(kChangedSettings)); }

@@ -8,6 +8,7 @@
 #include "mdat/link/signature.hpp"
 #include "mdat/recording/recorded_run.hpp"
 #include "mdat/run/simulation.hpp"
+#include "mdat/source/mission_error.hpp"
 
 namespace lasso::mdat {
 
@@ -40,6 +41,7 @@ class RecordedFlight {
   bool knows_truth() const;
 
  private:
+  std::vector<Problem> problems_in_recording(const MissionError& error, bool as_flown) const;
   std::string word(const char* key) const;
   std::uint64_t number(const char* key) const;
   std::uint32_t frames_until(double period_s) const;

@@ -33,7 +33,7 @@ std::string remedy_of_old_key(const std::string& key) {
     if (key == old.key) return old.now;
   }
   for (const OldKey& old : kConstants) {
-    if (key == old.key) return "is " + std::string(old.now) + " in every mission: delete this line";
+    if (key == old.key) return "is " + std::string(old.now) + " in every mission: leave it out";
   }
   return "";
 }

@@ -1,4 +1,4 @@
-// Keys of earlier versions. What a person does with a line that has one. Inside of missiondb.
+// Keys of earlier versions, and what a person does who wrote one.
 #pragma once
 
 #include <string>

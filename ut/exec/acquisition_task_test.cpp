@@ -208,7 +208,7 @@ TEST_F(AcquisitionTaskTest, AsksTheSensorThatItIsTold) {
 }
 
 TEST_F(AcquisitionTaskTest, NoSensorIsAskedForAScanThatCannotBePlanned) {
-  VERIFIES("LASSO-SNS-044~1");
+  VERIFIES("LASSO-SNS-044~2");
   Pose behind = scene_.pose_at(0);
   behind.p.z() = -3;
   task_->start(0, mission_, {behind, 0, false, false, {}}, 1, 0, plan_);

@@ -39,7 +39,7 @@ std::vector<PoseTelemetry> run(ComponentScene& scene, int frames) {
 }
 
 TEST(ComponentParts, ScansThePartsInTurnAndHandsOverBothWays) {
-  VERIFIES("LASSO-MOD-161~2 LASSO-MOD-162~1 LASSO-MOD-164~1 LASSO-MOD-171~1");
+  VERIFIES("LASSO-MOD-161~2 LASSO-MOD-162~1 LASSO-MOD-164~1 LASSO-MOD-171~2");
   ComponentScene scene(leaving_scene(), image_with_parts(test::two_halves()));
   scene.begin();
   ASSERT_EQ(scene.component->parts().size(), 2U);
@@ -74,7 +74,7 @@ TEST(ComponentParts, APartWhoseScansOutlastThePeriodIsRefused) {
 }
 
 TEST(ComponentParts, AModeThatIsLeftWhereItIsEnteredIsRefused) {
-  VERIFIES("LASSO-MOD-171~1");
+  VERIFIES("LASSO-MOD-171~2");
   MissionParameters p = parameters();
   p.short_range_leave_m = p.short_range_enter_m;
   ComponentScene scene(leaving_scene(), test::make_box_image(p));

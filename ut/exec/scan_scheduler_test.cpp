@@ -140,7 +140,7 @@ TEST_F(ScanSchedulerTest, EachScanIsPlannedAndEstimatedByItsOwnSensorsParameters
 
 // Once, however long it lasts; so is the end of it.
 TEST_F(ScanSchedulerTest, AFailureIsToldOnceAndSoIsItsEnd) {
-  VERIFIES("LASSO-SNS-044~1");
+  VERIFIES("LASSO-SNS-044~2");
   begin(scene_at(2.4, 0));
   EXPECT_TRUE(failures_told(6).empty());
   for (std::uint32_t scan = 6; scan < 9; ++scan) near_->lost.insert(scan);
@@ -150,7 +150,7 @@ TEST_F(ScanSchedulerTest, AFailureIsToldOnceAndSoIsItsEnd) {
 
 // In frames without a scan, too, the packet says who rests at present.
 TEST_F(ScanSchedulerTest, ASensorThatHasRestedIsNotToldAsFailedInModeSafe) {
-  VERIFIES("LASSO-SNS-044~1 LASSO-SNS-048~1");
+  VERIFIES("LASSO-SNS-044~2 LASSO-SNS-048~1");
   begin(scene_at(2.4, 0));
   run(6);
   for (std::uint32_t scan = 6; scan < 9; ++scan) near_->lost.insert(scan);
@@ -165,7 +165,7 @@ TEST_F(ScanSchedulerTest, ASensorThatHasRestedIsNotToldAsFailedInModeSafe) {
 }
 
 TEST_F(ScanSchedulerTest, ASensorThatFailsIsReplacedAndTold) {
-  VERIFIES("LASSO-SNS-044~1 LASSO-SNS-048~1");
+  VERIFIES("LASSO-SNS-044~2 LASSO-SNS-048~1");
   begin(scene_at(2.4, 0));
   run(6);
   for (std::uint32_t scan = 6; scan < 30; ++scan) near_->lost.insert(scan);
@@ -197,7 +197,7 @@ TEST_F(ScanSchedulerTest, TheSensorWithTroubleIsToldAndAllWhenAskedFor) {
 }
 
 TEST_F(ScanSchedulerTest, AScanThatCannotBePlannedIsNoFaultOfTheSensor) {
-  VERIFIES("LASSO-SNS-044~1");
+  VERIFIES("LASSO-SNS-044~2");
   test::BoxScene scene = scene_at(1.5, 0);
   scene.at_zero.p.x() = 2;  // beside both fields
   begin(scene);
@@ -212,7 +212,7 @@ TEST_F(ScanSchedulerTest, AScanThatCannotBePlannedIsNoFaultOfTheSensor) {
 }
 
 TEST_F(ScanSchedulerTest, WithoutABearingTheSensorsLookInTurn) {
-  VERIFIES("LASSO-SNS-045~1");
+  VERIFIES("LASSO-SNS-045~2");
   begin(scene_at(2.4, 0));
   run(3);
   far_->hidden = near_->hidden = true;

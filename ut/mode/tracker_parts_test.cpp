@@ -43,7 +43,7 @@ class TrackerPartsTest : public test::TrackerTest {
 };
 
 TEST_F(TrackerPartsTest, ATrackThatIsNearGoesOnByParts) {
-  VERIFIES("LASSO-MOD-164~1 LASSO-MOD-171~1");
+  VERIFIES("LASSO-MOD-164~1 LASSO-MOD-171~2");
   come_near();
   for (std::uint32_t k = 2; k < 12; ++k) {
     const TrackStep step = see(k, static_cast<PartNumber>(1 + k % 2));
@@ -59,7 +59,7 @@ TEST_F(TrackerPartsTest, ATrackThatIsNearGoesOnByParts) {
 }
 
 TEST_F(TrackerPartsTest, LeavesAtALargerRangeThanItEnters) {
-  VERIFIES("LASSO-MOD-164~1 LASSO-MOD-171~1");
+  VERIFIES("LASSO-MOD-164~1 LASSO-MOD-171~2");
   come_near();
   parameters().short_range_enter_m = 1;  // between the two nothing happens
   EXPECT_EQ(see(2, 1).after.mode, M::kShortRange);
@@ -87,7 +87,7 @@ TEST_F(TrackerPartsTest, AModeThatIsHeldIsNotLeftForTheRange) {
 
 // The target is 2.5 m away.
 TEST_F(TrackerPartsTest, ShortRangeThatIsCommandedFarAwayStaysUntilTheTargetHasComeAndGone) {
-  VERIFIES("LASSO-MOD-136~3 LASSO-MOD-171~1");
+  VERIFIES("LASSO-MOD-136~3 LASSO-MOD-171~2");
   parameters().short_range_enter_m = 1;
   parameters().short_range_leave_m = 2;
   start(small_error());
@@ -106,7 +106,7 @@ TEST_F(TrackerPartsTest, ShortRangeThatIsCommandedFarAwayStaysUntilTheTargetHasC
 }
 
 TEST_F(TrackerPartsTest, TrackingThatIsCommandedCloseByStaysUntilTheTargetHasGoneAndCome) {
-  VERIFIES("LASSO-MOD-136~3 LASSO-MOD-171~1");
+  VERIFIES("LASSO-MOD-136~3 LASSO-MOD-171~2");
   come_near();
   EXPECT_EQ(see(2, 1).event, E::kPoseValid);
   change_mode(E::kFar, state_);
@@ -122,7 +122,7 @@ TEST_F(TrackerPartsTest, TrackingThatIsCommandedCloseByStaysUntilTheTargetHasGon
 }
 
 TEST_F(TrackerPartsTest, ATrackThatStartsAnewGoesByTheRange) {
-  VERIFIES("LASSO-MOD-171~1");
+  VERIFIES("LASSO-MOD-171~2");
   come_near();
   change_mode(E::kFar, state_);
   ASSERT_TRUE(state_.range_awaited);
@@ -132,7 +132,7 @@ TEST_F(TrackerPartsTest, ATrackThatStartsAnewGoesByTheRange) {
 
 // Whether it was the range or a command that led to the mode in which the target was lost.
 TEST_F(TrackerPartsTest, ATrackThatIsReacquiredGoesByTheRange) {
-  VERIFIES("LASSO-MOD-164~1 LASSO-MOD-171~1");
+  VERIFIES("LASSO-MOD-164~1 LASSO-MOD-171~2");
   for (const bool commanded : {false, true}) {
     come_near();
     if (commanded) change_mode(E::kFar, state_);
@@ -145,7 +145,7 @@ TEST_F(TrackerPartsTest, ATrackThatIsReacquiredGoesByTheRange) {
 }
 
 TEST_F(TrackerPartsTest, StartingAndCoastingAreNotCutShort) {
-  VERIFIES("LASSO-MOD-171~1");
+  VERIFIES("LASSO-MOD-171~2");
   start(small_error());
   EXPECT_EQ(track(0).event, E::kPoseValid);
   miss(1);

@@ -74,7 +74,7 @@ TEST_F(SensorChooserTest, BeyondAllMeasuringTheOneInUseGoesOnAndSaysSo) {
 }
 
 TEST_F(SensorChooserTest, ASensorThatFailsIsReplacedByOneThatMeasuresTheRangeAndTriedAgainAfterItsRest) {
-  VERIFIES("LASSO-SNS-044~1");
+  VERIFIES("LASSO-SNS-044~2");
   expect(at(16), 0, R::kInBand);
   lose(0, 2);
   expect(at(16), 0, R::kInBand);
@@ -84,7 +84,8 @@ TEST_F(SensorChooserTest, ASensorThatFailsIsReplacedByOneThatMeasuresTheRangeAnd
   expect(at(16), 1, R::kInBand);
   expect(at(19), 1, R::kSubstitute);
   expect(at(50), 1, R::kOutOfRange);
-  scan_id_ = 52;  // it failed in scan 2, and rests for 50
+  scan_id_ = 51;  // it failed in scan 2, and rests for 50
+  expect(at(50), 1, R::kOutOfRange);
   expect(at(50), 0, R::kInBand);
   EXPECT_EQ(chooser_.failed(scan_id_), 0);
   lose(0, 1);  // it is as before: one scan tells
@@ -97,7 +98,7 @@ TEST_F(SensorChooserTest, ASensorThatFailsIsReplacedByOneThatMeasuresTheRangeAnd
 }
 
 TEST_F(SensorChooserTest, WhereAllHaveFailedTheOneInUseGoesOnAndSaysSo) {
-  VERIFIES("LASSO-SNS-044~1");
+  VERIFIES("LASSO-SNS-044~2");
   expect(at(50), 0, R::kInBand);
   lose(0, 3);
   lose(1, 3);
@@ -108,7 +109,7 @@ TEST_F(SensorChooserTest, WhereAllHaveFailedTheOneInUseGoesOnAndSaysSo) {
 }
 
 TEST_F(SensorChooserTest, ForATargetOfUnknownRangeTheSensorsLookInTurn) {
-  VERIFIES("LASSO-SNS-045~1");
+  VERIFIES("LASSO-SNS-045~2");
   add(1, 50, 20, 40);
   std::vector<int> taken;
   for (int i = 0; i < 31; ++i) {
@@ -123,7 +124,7 @@ TEST_F(SensorChooserTest, ForATargetOfUnknownRangeTheSensorsLookInTurn) {
 }
 
 TEST_F(SensorChooserTest, WhoHasFailedDoesNotLook) {
-  VERIFIES("LASSO-SNS-045~1");
+  VERIFIES("LASSO-SNS-045~2");
   add(1, 50, 20, 40);
   expect(anywhere(), 0, R::kRangeUnknown);
   lose(0, 3);

@@ -16,8 +16,8 @@ constexpr const char* kRetiredKeys[] = {"sensing.rest_frames",     "sensing.look
 
 TEST(OldKeys, SayWhatIsInTheirPlace) {
   VERIFIES("LASSO-GND-003~1");
-  EXPECT_EQ(remedy_of_old_key("search.hits_min"), "is 80 in every mission: delete this line");
-  EXPECT_EQ(remedy_of_old_key("search.work_max"), "is 2500000 in every mission: delete this line");
+  EXPECT_EQ(remedy_of_old_key("search.hits_min"), "is 80 in every mission: leave it out");
+  EXPECT_EQ(remedy_of_old_key("search.work_max"), "is 2500000 in every mission: leave it out");
   EXPECT_EQ(remedy_of_old_key("tracking.normalized_residual_max").substr(0, 29), "is sensor.noise_tolerance now");
   EXPECT_EQ(remedy_of_old_key("search.hits"), "");
 }
@@ -38,7 +38,7 @@ TEST(OldKeys, AreRefusedInAllTablesOfAMission) {
   Folder folder;
   folder.write("box.toml", "[[part]]\nkind = 'box'\nsize = [2, 1, 1]\n");
   const std::string head = "[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmodel = 'box.toml'\n";
-  const std::string place = "m.toml:8:", said = "search.ratio_min: is 1.3 in every mission: delete this line";
+  const std::string place = "m.toml:8:", said = "search.ratio_min: is 1.3 in every mission: leave it out";
   const struct {
     const char* table;
     const char* line;
