@@ -20,19 +20,23 @@ function(lasso_precompile KIND)
 endfunction()
 
 # -O3 makes code twice as large, and the flight image has to fit its 512 kB, in fixed point as well. What works once a frame, not once a ray,
-# gains nothing from it: whole rooms, and sources of the others. Of what works once a ray hypothesis_score and view_matching are a search's alone,
-# and lose a twentieth of a slice. distance_alignment stays at -O3: at -O2 a slice takes a third more, and does not fit into a frame.
+# gains nothing from it: whole rooms, and sources of the others. distance_alignment, which works once a ray, stays at -O3: at -O2 a slice of a search
+# takes a third more, and does not fit into a frame.
 set(LASSO_SMALL_ROOMS mission mode link exec)
 set(LASSO_SMALL_SOURCES
     geometry/symmetric6.cpp
     pose/estimator/estimator.cpp
-    pose/recognition/acceptance.cpp pose/recognition/hypothesis_score.cpp pose/recognition/pose_search.cpp pose/recognition/scan_subset.cpp
-    pose/recognition/view_matching.cpp
+    pose/recognition/pose_search.cpp pose/recognition/scan_subset.cpp
     pose/registration/agreement.cpp pose/registration/coarse_alignment.cpp pose/registration/common_error.cpp
     pose/registration/minima.cpp pose/registration/registration.cpp pose/registration/weak_axis.cpp
     pose/silhouette/information_forecast.cpp pose/silhouette/outline_constraint.cpp pose/silhouette/outline_fit.cpp
     pose/silhouette/ray_placement.cpp pose/silhouette/silhouette.cpp
     pose/tracking/bearing.cpp pose/tracking/pose_filter.cpp)
+# These work once a ray, in searches alone. In fixed point -O3 makes them 9 kB larger, for which there is no room; in floating point 2 kB, and
+# without it a search exceeds its 200 million instructions (make search-count).
+if(LASSO_NUMBER STREQUAL "fixed")
+  list(APPEND LASSO_SMALL_SOURCES pose/recognition/acceptance.cpp pose/recognition/hypothesis_score.cpp pose/recognition/view_matching.cpp)
+endif()
 set(LASSO_ROOMS_WITHOUT_EIGEN link)
 
 # lasso_make_small(ROOM SOURCE...): -O2 where it is said above. Without the precompiled header: its inline functions keep the level at which it
