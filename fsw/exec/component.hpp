@@ -41,7 +41,7 @@ namespace lasso {
 
 // What a board gives besides sensors; empty, or null, where it does not.
 struct BoardMemory {
-  Bytes image_buffers[2];  // of one size, aligned to 8 bytes
+  Bytes image_buffers[2];  // of one size, aligned to 8 bytes, apart from each other
   Store* store = nullptr;
   ConstBytes code;  // that must not change
 };
@@ -58,11 +58,13 @@ class Component {
   const Identity& identity() const { return identity_; }
 
   // Validates and takes over `image`, which stays the component's memory (8-byte aligned, at most kMaxImageBytes). Before begin() only:
-  // kBadOrder afterwards. kBadValue when a scan does not fit into a frame, or a sensor of the mission's is not there.
+  // kBadOrder afterwards. kBadValue when a scan does not fit into a frame, a sensor of the mission's is not there, or
+  // `image` is null, not aligned, or reaches into the buffer that the next image will come into (use_memory).
   LoadFailure load_image(Bytes image);
 
   // What the board gives for images that are loaded in flight. Before the first image; kBadValue when the buffers are not of one size and
-  // aligned to 8 bytes, kOverCapacity when there is more code than can be watched, kBadOrder after begin(). It outlives the component.
+  // aligned to 8 bytes, or share a byte; kOverCapacity when there is more code than can be watched, kBadOrder after begin(). It outlives
+  // the component.
   Status use_memory(const BoardMemory& memory);
   // The image of the board's store that was selected last, or the one before where that one is not right. kNoData: neither is.
   LoadFailure load_stored_image();
@@ -127,9 +129,10 @@ class Component {
   // The nominal time of the next slot, and whether it is a boundary.
   TimeUs next_slot_us() const { return executive_.next_slot_us(); }
   bool next_slot_is_boundary() const { return executive_.next_slot() == 0; }
-  // Is it time for it? It is, too, when the clock has jumped back.
-  bool slot_is_due(TimeUs now_us) const { return now_us >= next_slot_us() || executive_.jumped(now_us); }
-  // Runs the next slot at now_us (when it is due; later is a slip, which is counted). A clock that has jumped is followed. Never waits.
+  // Is it time for it? It is, too, when the clock has jumped back. Before begin() there is none.
+  bool slot_is_due(TimeUs now_us) const { return !executive_.awaits_begin() && (now_us >= next_slot_us() || executive_.jumped(now_us)); }
+  // After begin() only (an invariant). Runs the next slot at now_us (when it is due; later is a slip, which is counted). A clock that has
+  // jumped is followed. Never waits.
   void run_slot(TimeUs now_us);
 
   bool estimation_pending() const { return estimation_.pending(); }

@@ -33,6 +33,11 @@ class Executive {
   // kBadValue unless every slot lasts at least 1 us, and the frame at most kLongestFrame_us.
   Status begin(TimeUs boundary_0_us, DurationUs period_us);
   bool begun() const { return period_us() > 0; }
+  // Nobody has begun it: there are no slots yet. False, too, where its period is lost, which is not to pass for that.
+  bool awaits_begin() const {
+    std::uint32_t period_us = 0;
+    return period_us_.get(period_us) && period_us == 0;
+  }
   DurationUs slot_us() const { return period_us() / static_cast<DurationUs>(kSlotsPerFrame); }
 
   // Slot j of frame k begins at boundary_0 + k * period + j * period / kSlotsPerFrame, rounded down.

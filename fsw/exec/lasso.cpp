@@ -3,9 +3,20 @@
 #include <new>
 
 namespace lasso {
+namespace {
+
+// Is there a sensor at all, and none of them null? Loop bound: kMaxSensors.
+bool has_sensors(const SensorBank& sensors) {
+  for (const Sensor* sensor : sensors) {
+    if (sensor == nullptr) return false;
+  }
+  return !sensors.empty();
+}
+
+}  // namespace
 
 Component* create(void* memory, std::size_t size, const SensorBank& sensors, const Identity& identity) {
-  if (memory == nullptr || size < required_memory() || sensors.empty() || !is_valid(identity)) return nullptr;
+  if (memory == nullptr || size < required_memory() || !has_sensors(sensors) || !is_valid(identity)) return nullptr;
   if (reinterpret_cast<std::uintptr_t>(memory) % required_alignment() != 0) return nullptr;
   return new (memory) Component(sensors, identity);
 }

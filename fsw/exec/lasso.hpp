@@ -13,7 +13,8 @@ namespace lasso {
 constexpr std::size_t required_memory() { return sizeof(Component); }
 constexpr std::size_t required_alignment() { return alignof(Component); }
 
-// A component in `memory`; null when it is too small or not aligned, there is no sensor, or no component can have this identity. There is
+// A component in `memory`; null when it is too small or not aligned, there is no sensor, one of them is null, or no
+// component can have this identity. There is
 // nothing to destroy: the memory may be reused at any time. The sensors, in the order of the mission's, and `memory` outlive it.
 Component* create(void* memory, std::size_t size, const SensorBank& sensors, const Identity& identity = {});
 Component* create(void* memory, std::size_t size, Sensor& sensor, const Identity& identity = {});
@@ -40,7 +41,7 @@ bool receive_packet(Component& component, ConstBytes packet, TimeUs now_us);
 std::size_t take_telemetry(Component& component, Bytes out);
 
 // Runs the next slot, and the estimate that it may leave pending, if the slot's time has come at now_us. False, and nothing has
-// happened, when it has not. Call it until it says false.
+// happened, when it has not, or before begin(). Call it until it says false.
 bool step(Component& component, TimeUs now_us);
 // When the next slot's time comes: until then a host may sleep.
 TimeUs next_slot_us(const Component& component);

@@ -13,7 +13,7 @@ inline constexpr Range kOneBlock{1, static_cast<double>(kMemoryBlockBytes)};
 // clang-format off
 inline constexpr TypedRow<ImageCommand> kBegin[] = {
   make_row<&ImageCommand::bytes>(1, "bytes", "1", kAny, "length of the image"),
-  make_row<&ImageCommand::crc>(2, "crc", "1", kAny, "its last four bytes: CRC-32C of all before"),
+  make_row<&ImageCommand::crc>(2, "crc", "1", kAny, "its last four bytes, before its signature: CRC-32C of all before them"),
 };
 inline constexpr TypedRow<ImageCommand> kActivate[] = {
   make_row<&ImageCommand::crc>(1, "crc", "1", kAny, "CRC-32C of the image that is meant"),

@@ -12,12 +12,21 @@ constexpr std::size_t kPieceBytes = 256;  // read from the store at a time for a
 
 std::uint32_t crc_at_end(ConstBytes image) { return ByteReader(image.subspan(image.size() - 4, 4)).u32(); }
 
-bool aligned(ConstBytes bytes) { return reinterpret_cast<std::uintptr_t>(bytes.data()) % 8 == 0; }
+bool is_there(ConstBytes bytes) { return bytes.data() != nullptr || bytes.empty(); }
+
+bool usable(ConstBytes buffer) { return is_there(buffer) && reinterpret_cast<std::uintptr_t>(buffer.data()) % 8 == 0; }
+
+// Do they share a byte?
+bool overlap(ConstBytes a, ConstBytes b) {
+  const auto at_a = reinterpret_cast<std::uintptr_t>(a.data()), at_b = reinterpret_cast<std::uintptr_t>(b.data());
+  return !a.empty() && !b.empty() && at_a < at_b + b.size() && at_b < at_a + a.size();
+}
 
 }  // namespace
 
 Status ImageKeeper::use_buffers(Bytes first, Bytes second) {
-  if (first.size() != second.size() || first.size() > kMaxImageBytes || !aligned(first) || !aligned(second)) return Status::kBadValue;
+  if (first.size() != second.size() || first.size() > kMaxImageBytes || !usable(first) || !usable(second)) return Status::kBadValue;
+  if (overlap(first, second)) return Status::kBadValue;
   slots_[0].use(first);
   slots_[1].use(second);
   return Status::kOk;
@@ -44,8 +53,10 @@ void ImageKeeper::accept_unsigned() {
 
 LoadFailure ImageKeeper::start(Bytes image, std::size_t sensors) {
   started_ = false;  // whatever follows, the image that was loaded before may have been overwritten
-  select(image.data() == slots_[1].buffer().data() ? 1 : 0);
+  if (!is_there(image)) return failure(Status::kBadValue, "image buffer is null");
+  select(!image.empty() && image.data() == slots_[1].buffer().data() ? 1 : 0);
   ImageSlot& slot = slots_[active_index()];
+  if (overlap(image, spare().buffer())) return failure(Status::kBadValue, "the image lies in the buffer of the other one, too");
   if (image.data() != slot.buffer().data() || image.size() > slot.buffer().size()) slot.use(image);
   slot.open(static_cast<std::uint32_t>(image.size()));
   slot.begin_check();

@@ -43,7 +43,8 @@ struct MemoryFinding {
 
 class ImageKeeper {
  public:
-  // Before the first image. The buffers are of one size and aligned to 8 bytes (kBadValue), and belong to the keeper from now on.
+  // Before the first image. The buffers are of one size, aligned to 8 bytes, and share no byte (kBadValue), and belong to the keeper
+  // from now on.
   Status use_buffers(Bytes first, Bytes second);
   void use_store(Store& store) { store_ = &store; }
   // Parameters that were changed in flight; it outlives the keeper. What changes there holds from apply_parameters() on.
@@ -57,7 +58,7 @@ class ImageKeeper {
   Status watch_code(ConstBytes code);
 
   // The first image, at once: all of it, or one of the store's, the one that was selected last if it is right. kNoData: the store has none.
-  // `image` is anywhere, or begins where one of the buffers does.
+  // `image` begins where one of the buffers does, and ends before the other; or it is anywhere outside of the second (kBadValue).
   LoadFailure start(Bytes image, std::size_t sensors);
   LoadFailure start_stored(std::size_t sensors);
   bool started() const { return started_; }

@@ -38,13 +38,15 @@ std::vector<unsigned int> fewer(const std::vector<unsigned int>& indices, const 
   constexpr std::size_t kStride = 3 * sizeof(float);
   constexpr auto kError = static_cast<float>(kSimplifyError);
   std::vector<unsigned int> kept(indices.size());
+  // No more than there are: meshoptimizer ends the program otherwise.
+  const std::size_t wanted = std::min(3 * triangles, indices.size());
   const std::size_t count =
-      meshopt_simplify(kept.data(), indices.data(), indices.size(), positions.data(), positions.size() / 3, kStride, 3 * triangles, kError);
+      meshopt_simplify(kept.data(), indices.data(), indices.size(), positions.data(), positions.size() / 3, kStride, wanted, kError);
   kept.resize(count);
-  if (2 * count <= 3 * 3 * triangles) return kept;
+  if (2 * count <= 3 * wanted) return kept;
   std::vector<unsigned int> clustered(indices.size());
   clustered.resize(meshopt_simplifySloppy(clustered.data(), indices.data(), indices.size(), positions.data(), positions.size() / 3, kStride,
-                                          3 * triangles, kError));
+                                          wanted, kError));
   return clustered.empty() ? kept : clustered;
 }
 

@@ -33,6 +33,9 @@ TEST(Lasso, LivesInMemoryOfTheCaller) {
   EXPECT_EQ(create(memory->bytes + 1, required_memory(), sensor), nullptr);
   EXPECT_EQ(create(nullptr, required_memory(), sensor), nullptr);
   EXPECT_EQ(create(memory->bytes, required_memory(), SensorBank{}), nullptr);
+  SensorBank bank = only(sensor);
+  ASSERT_TRUE(bank.push_back(nullptr));
+  EXPECT_EQ(create(memory->bytes, required_memory(), bank), nullptr) << "one of two sensors is null";
   EXPECT_EQ(static_cast<void*>(create(memory->bytes, required_memory(), sensor)), static_cast<void*>(memory->bytes));
 }
 
@@ -204,6 +207,22 @@ TEST(Lasso, AnswersCommands) {
   EXPECT_EQ(take_telemetry(component, Bytes(out)), 26u + 22u + 26u);
   EXPECT_TRUE(receive_packet(component, test::view(test::ping(2)), 0));
   EXPECT_EQ(take_telemetry(component, Bytes(out)), 26u + 22u + 26u);
+}
+
+// A host whose loop runs before it has begun: at any time, before and after an image is loaded.
+TEST(Lasso, DoesNothingBeforeItBegins) {
+  VERIFIES("LASSO-EXE-010~1");
+  const auto memory = std::make_unique<Memory>();
+  test::BoxSensor sensor(test::default_scene());
+  Component& component = *create(memory->bytes, sizeof(Memory::bytes), sensor);
+  for (const TimeUs now_us : {TimeUs{0}, TimeUs{-1'000'000'000}, TimeUs{1'000'000'000}}) EXPECT_FALSE(step(component, now_us)) << now_us;
+  test::TestImage image = test::make_box_image(test::box_parameters(test::default_scene()), test::default_scene().box);
+  ASSERT_EQ(load_image(component, Bytes(image.data(), image.size)).status, Status::kOk);
+  EXPECT_FALSE(step(component, 0));
+  std::uint8_t out[kMaxPosePacketBytes];
+  EXPECT_EQ(take_telemetry(component, Bytes(out)), 0U);
+  ASSERT_EQ(begin(component, 0), Status::kOk);
+  EXPECT_TRUE(step(component, 0));
 }
 
 TEST(Lasso, DoesNothingBeforeItsTime) {

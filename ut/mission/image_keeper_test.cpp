@@ -23,6 +23,30 @@ TEST_F(KeeperTest, BuffersAreOfOneSizeAndAligned) {
   EXPECT_EQ(keeper.watch_code(ConstBytes(buffer(0).data(), 256 * kChunkBytes + 1)), Status::kOverCapacity);
 }
 
+TEST_F(KeeperTest, BuffersAreMemoryAndShareNoByte) {
+  VERIFIES("LASSO-IMG-011~1");
+  ImageKeeper& keeper = *keeper_;
+  const Bytes memory = buffer(0);
+  EXPECT_EQ(keeper.use_buffers(memory.first(64), memory.first(64)), Status::kBadValue) << "the same twice";
+  EXPECT_EQ(keeper.use_buffers(memory.first(64), memory.subspan(56, 64)), Status::kBadValue);
+  EXPECT_EQ(keeper.use_buffers(memory.subspan(56, 64), memory.first(64)), Status::kBadValue);
+  EXPECT_EQ(keeper.use_buffers(memory.first(64), memory.subspan(64, 64)), Status::kOk) << "one behind the other";
+  EXPECT_EQ(keeper.use_buffers(Bytes(nullptr, 64), memory.first(64)), Status::kBadValue);
+  EXPECT_EQ(keeper.use_buffers(memory.first(64), Bytes(nullptr, 64)), Status::kBadValue);
+  EXPECT_EQ(keeper.use_buffers({}, {}), Status::kOk) << "none";
+}
+
+// What is uploaded later would be written over the image that flies.
+TEST_F(KeeperTest, TheFirstImageIsMemoryAndLeavesTheOtherBufferFree) {
+  VERIFIES("LASSO-IMG-011~1");
+  EXPECT_EQ(keeper_->start(Bytes(nullptr, 64), 1).status, Status::kBadValue);
+  EXPECT_FALSE(keeper_->started());
+  const Bytes second = buffer(1);
+  EXPECT_EQ(keeper_->start(second.subspan(8, second.size() - 8), 1).status, Status::kBadValue);
+  EXPECT_FALSE(keeper_->started());
+  EXPECT_EQ(start().status, Status::kOk);
+}
+
 TEST_F(KeeperTest, TheImageThatIsLoadedIsNotUsedAndTheActiveOneNotTouched) {
   VERIFIES("LASSO-IMG-011~1");
   ASSERT_EQ(start().status, Status::kOk);

@@ -72,6 +72,15 @@ Mesh comb(double width_m) {
   return mesh;
 }
 
+// A mesh that is coarse enough: it stays as it is.
+TEST(Simplify, MoreTrianglesThanThereAreTakeNoneAway) {
+  VERIFIES("LASSO-GND-042~1");
+  const Mesh ball = shapes::sphere(0.5, 12, 24);
+  const Simplified same = simplify(ball, 500'000);
+  EXPECT_EQ(same.mesh.triangles.size(), ball.triangles.size());
+  EXPECT_LT(same.worst_m, 1e-6);
+}
+
 // The plate without notches holds every vertex that was given, but the middle of a mouth is half of its width from the notch's sides.
 TEST(Simplify, NotchesThatFacesBridgeAreInTheError) {
   VERIFIES("LASSO-GND-042~1");
