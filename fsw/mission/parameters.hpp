@@ -85,6 +85,7 @@ struct InitialPoseParameters {
 };
 
 // The sections of a mission file, in its order. SensorParameters are those of the sensor whose scans these parameters are for.
+// NOLINTNEXTLINE(misc-multiple-inheritance): plain values, of which each section has a name of its own
 struct MissionParameters : SensorParameters,
                            SensingParameters,
                            ScanParameters,

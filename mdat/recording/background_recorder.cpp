@@ -8,8 +8,8 @@ namespace {
 std::vector<std::uint8_t> copy_of(ConstBytes bytes) { return {bytes.begin(), bytes.end()}; }
 ConstBytes view(const std::vector<std::uint8_t>& bytes) { return {bytes.data(), bytes.size()}; }
 
-// What it throws; null: nothing. What it was given is free again when this returns.
-std::exception_ptr failure_of(std::function<void()> call) {
+// What it throws; null: nothing.
+std::exception_ptr failure_of(const std::function<void()>& call) {
   try {
     call();
   } catch (...) {
@@ -73,15 +73,18 @@ void BackgroundRecorder::end() {
   if (thread_.joinable()) thread_.join();
 }
 
-// A call stays among those that wait while it is made.
+// A call stays among those that wait while it is made. What it held is given back before the lock is taken again.
 void BackgroundRecorder::work() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (!failure_) {
     changed_.wait(lock, [this] { return !waiting_.empty() || ending_; });
     if (waiting_.empty()) return;
-    Call call = std::move(waiting_.front());
-    lock.unlock();
-    const std::exception_ptr failure = failure_of(std::move(call));
+    std::exception_ptr failure;
+    {
+      const Call call = std::move(waiting_.front());
+      lock.unlock();
+      failure = failure_of(call);
+    }
     lock.lock();
     failure_ = failure;
     waiting_.pop_front();

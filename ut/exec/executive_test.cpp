@@ -59,6 +59,7 @@ TEST(Executive, ItsPeriodSurvivesAFlip) {
   copies[0] = 7;
   copies[2] = 9;
   EXPECT_FALSE(executive.begun()) << "no two agree: nothing runs, and the watchdog bites";
+  EXPECT_FALSE(executive.awaits_begin()) << "a lost period does not pass for one that nobody has set";
 }
 
 TEST(Executive, PollsInEverySlotAndPassesTheBoundaryAfterItsPoll) {
