@@ -234,8 +234,8 @@ TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeIm
   const bool starts = mode.confirms && before.check.stage == StartCheck::Stage::kNone;
   const bool wide = ((mode.wide_start && starts) || is_rough(mission, filter)) && p.wide_start > 0.5;
   Registration& registration = step.registration;
-  registration = estimator.estimate(mission, scan,
-                                    StartPoint{filter.T_sensor_target, filter.rates, wide, rate_sigma(mission.radius_m, filter), false});
+  registration = estimator.estimate(
+      mission, scan, StartPoint{filter.T_sensor_target, filter.rates, wide, rate_sigma(mission.radius_m, filter), false, true});
   if (registration.valid()) registration.reason = confirm(p, mode, starts, filter, registration);
   take(p, mode, step);
   return step;

@@ -80,6 +80,12 @@ class PoseFixture : public ::testing::Test {
     keep_points([count](std::size_t i, const MatchPoint<FlightNumber>&) { return i < count; });
   }
 
+  static StartPoint tracked_at(const Pose& T_target_sensor) {
+    StartPoint start;
+    start.T_sensor_target = inverse(T_target_sensor);
+    start.tracked = true;
+    return start;
+  }
   Pose truth() const { return inverse(scan_.T_sensor_target); }  // T_target_sensor
   // Rotation and translation of `T_target_sensor` against the truth, sensor axes.
   Vec6 error_of(const Pose& T_target_sensor) const { return pose_difference(inverse(T_target_sensor), scan_.T_sensor_target); }

@@ -225,7 +225,7 @@ HitSolution register_wide(const Mission& mission, const Pose& T_target_sensor, W
 [[gnu::noinline]] void register_scan(const Mission& mission, const StartPoint& start, Workspace& workspace, HitSolution& hits) {
   const Pose pose = inverse(start.T_sensor_target);
   hits = start.wide ? register_wide(mission, pose, workspace) : register_hits(mission, pose, workspace);
-  if (!start.partial) minimise_weak_axis(mission, pose, workspace, hits);
+  if (!start.partial) minimise_weak_axis(mission, start, workspace, hits);
 }
 
 [[gnu::noinline]] void describe(const Mission& mission, const ScanCare& care, HitSolution& hits, Workspace& workspace,

@@ -63,12 +63,13 @@ void look_for_others(const Mission& mission, const WeakAxis& weak, const Pose& p
 
 }  // namespace
 
-void minimise_weak_axis(const Mission& mission, const Pose& predicted, Workspace& workspace, HitSolution& hits) {
+void minimise_weak_axis(const Mission& mission, const StartPoint& start, Workspace& workspace, HitSolution& hits) {
   if (!has_axes(hits) || explained_share(hits) < mission.parameters.inlier_share_min) return;
   WeakAxis weak;
   find_axis(mission, hits, weak);
+  const Pose predicted = inverse(start.T_sensor_target);
   const double certain_m = kCertain * mission.radius_m;
-  if (weak.sigma_m < certain_m && !is_far(mission, predicted, hits.T_target_sensor, weak)) return;
+  if (weak.sigma_m < certain_m && !(start.tracked && is_far(mission, predicted, hits.T_target_sensor, weak))) return;
   const double first_step_m = clamp(kSigmas * weak.sigma_m, kSigmas * certain_m, kLongestStep * mission.radius_m);
   (void)minimise_along(mission, weak.axis, first_step_m, predicted, workspace, hits);
   if (!(weak.sigma_m < certain_m)) look_for_others(mission, weak, predicted, workspace, hits);

@@ -8,16 +8,18 @@
 #include "fsw/mission/mission.hpp"
 #include "fsw/pose/registration/observability.hpp"
 #include "fsw/pose/registration/registration.hpp"
+#include "fsw/pose/scan/start_point.hpp"
 
 namespace lasso {
 
 // Moves the registration to its minimum along the least certain axis that its hits see at all: small parts alone tell the roll of a round
-// body, or where a wing lies along itself. An axis more certain than a 500th of the radius is looked at where the pose is more than five
-// sigmas from the prediction along it. First steps are five sigmas long, a 100th of the radius at least and a tenth at most. Other minima
-// (minima.hpp) are looked for where the axis is not that certain. A start is mostly certain and far from its prediction: looking there cost
-// three quarters of a first estimate, and found no wrong pose. Nothing moves without information, or where the registration explains less
-// than tracking.inlier_share_min. Bound: an inverse, two eigen-decompositions, minimise_along and find_minima.
-void minimise_weak_axis(const Mission& mission, const Pose& predicted_T_target_sensor, Workspace& workspace, HitSolution& hits);
+// body, or where a wing lies along itself. An axis more certain than a 500th of the radius is looked at where a track predicted a pose that
+// is more than five sigmas off along it. A start that nothing tracked is mostly that far off, and the look costs one and a half times what
+// else an estimate does (docs/experiments/2026-11-30-far-from-the-start.md). First steps are five sigmas long, a 100th of the radius at
+// least and a tenth at most. Other minima (minima.hpp) are looked for where the axis is not that certain. Nothing moves without information,
+// or where the registration explains less than tracking.inlier_share_min. Bound: two inverses, two eigen-decompositions, minimise_along and
+// find_minima.
+void minimise_weak_axis(const Mission& mission, const StartPoint& start, Workspace& workspace, HitSolution& hits);
 
 // Does the cost rise as the covariance says? Where it is not higher by kRise five sigmas off along an axis, either way, the sigma is
 // doubled until it is; without an end within the model's radius the axis is unobservable. Of Gaussian residuals of many returns the bounded

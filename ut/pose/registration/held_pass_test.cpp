@@ -13,7 +13,7 @@ class HeldPassTest : public test::BrutePassFixture {};
 
 // Tukey's rho with a kernel of sqrt(12) sigmas, point by point in double.
 TEST_F(HeldPassTest, TheBoundedCostIsThatOfABruteForcePass) {
-  VERIFIES("LASSO-REG-031~1");
+  VERIFIES("LASSO-REG-031~2");
   for (int i = 0; i < 8; ++i) {
     scan_.T_sensor_target = test::random_box_pose(random_);
     parameters().incidence_max_rad = i % 2 == 0 ? 0.9 : 1.5;
@@ -28,7 +28,7 @@ TEST_F(HeldPassTest, TheBoundedCostIsThatOfABruteForcePass) {
 }
 
 TEST_F(HeldPassTest, WithoutAReturnTheBoundedCostIsMoreThanAny) {
-  VERIFIES("LASSO-REG-031~1");
+  VERIFIES("LASSO-REG-031~2");
   scan();
   Pose behind = truth();
   behind.p *= -20;
@@ -44,7 +44,7 @@ TEST_F(HeldPassTest, WithoutAReturnTheBoundedCostIsMoreThanAny) {
 
 // Against the least squares over the five directions that are left, in double, of brute-force sums.
 TEST_F(HeldPassTest, AHeldAxisStaysAndTheOthersAreSolved) {
-  VERIFIES("LASSO-REG-031~1");
+  VERIFIES("LASSO-REG-031~2");
   scan();
   const Pose start = inverse(test::disturb(scan_.T_sensor_target, 0.004, 0.003, random_));
   keep_clear_points(start);

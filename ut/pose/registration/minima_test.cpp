@@ -199,7 +199,7 @@ TEST_F(MinimaTest, WhereTheAxisIsCertainNoOthersAreLookedFor) {
   const Eigen6 axes = axes_at_radius(covariance_of_hits(radius_m(), hits.H, 1, unseen), radius_m());
   ASSERT_LT(std::sqrt(axes.values[5]), 0.002 * radius_m());
   ASSERT_GT(std::abs(axes.vectors(3, 5)), 0.95);
-  minimise_weak_axis(mission_, shifted(0.8 * kPeriod_m), *workspace_, hits);
+  minimise_weak_axis(mission_, tracked_at(shifted(0.8 * kPeriod_m)), *workspace_, hits);
   EXPECT_FALSE(hits.others_apart);
   EXPECT_EQ(hits.spread, Mat6(Mat6::Zero()));
 }
@@ -211,7 +211,7 @@ TEST_F(MinimaTest, TheCovarianceKnowsOfTheOthers) {
   HitSolution hits = register_first(mission_, truth(), *workspace_);
   const Vec6 row = hits.H.col(3) / std::sqrt(hits.H(3, 3));
   hits.H -= 0.995 * row * row.transpose();  // the least certain axis, and weak
-  minimise_weak_axis(mission_, truth(), *workspace_, hits);
+  minimise_weak_axis(mission_, tracked_at(truth()), *workspace_, hits);
   ASSERT_TRUE(hits.others_apart);
   Directions unseen;
   Mat6 covariance = covariance_of_hits(radius_m(), hits.H, 1, unseen);
