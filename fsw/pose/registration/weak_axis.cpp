@@ -36,12 +36,19 @@ struct WeakAxis {
   weak.sigma_m = square_root(eigen.values[least_certain]);
 }
 
+bool is_certain(const Mission& mission, const WeakAxis& weak) { return weak.sigma_m < kCertain * mission.radius_m; }
+
 // Is the pose more than five sigmas of the axis from the prediction, along it? Where rays have met the wrong surface, many of them keep it
 // there, and it is sure of itself.
 bool is_far(const Mission& mission, const Pose& predicted, const Pose& pose, const WeakAxis& weak) {
   const Vec6 way_m = radius_scale(mission.radius_m).cwiseProduct(way_between(pose, predicted));
   const double sigmas = weak.axis.dot(way_m) / weak.sigma_m;
   return sigmas * sigmas > kSigmas * kSigmas;
+}
+
+bool is_looked_at(const Mission& mission, const StartPoint& start, const Pose& predicted, const Pose& pose, const WeakAxis& weak) {
+  if (!is_certain(mission, weak)) return true;
+  return start.tracked && is_far(mission, predicted, pose, weak);
 }
 
 // The least way, of those doubled from five sigmas on, at which the cost has risen; the model's radius, or more, where there is none.
@@ -68,11 +75,10 @@ void minimise_weak_axis(const Mission& mission, const StartPoint& start, Workspa
   WeakAxis weak;
   find_axis(mission, hits, weak);
   const Pose predicted = inverse(start.T_sensor_target);
-  const double certain_m = kCertain * mission.radius_m;
-  if (weak.sigma_m < certain_m && !(start.tracked && is_far(mission, predicted, hits.T_target_sensor, weak))) return;
-  const double first_step_m = clamp(kSigmas * weak.sigma_m, kSigmas * certain_m, kLongestStep * mission.radius_m);
+  if (!is_looked_at(mission, start, predicted, hits.T_target_sensor, weak)) return;
+  const double first_step_m = clamp(kSigmas * weak.sigma_m, kSigmas * kCertain * mission.radius_m, kLongestStep * mission.radius_m);
   (void)minimise_along(mission, weak.axis, first_step_m, predicted, workspace, hits);
-  if (!(weak.sigma_m < certain_m)) look_for_others(mission, weak, predicted, workspace, hits);
+  if (!is_certain(mission, weak)) look_for_others(mission, weak, predicted, workspace, hits);
 }
 
 void widen_weak_axes(const Mission& mission, const HitSolution& hits, double scale, Workspace& workspace, Mat6& covariance,
