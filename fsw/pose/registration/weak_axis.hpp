@@ -16,9 +16,9 @@ namespace lasso {
 // body, or where a wing lies along itself. An axis more certain than a 500th of the radius is looked at where a track predicted a pose that
 // is more than five sigmas off along it. A start that nothing tracked is mostly that far off, and the look costs one and a half times what
 // else an estimate does (docs/experiments/2026-11-30-far-from-the-start.md). First steps are five sigmas long, a 100th of the radius at
-// least and a tenth at most. Other minima (minima.hpp) are looked for where the axis is not that certain. Nothing moves without information,
-// or where the registration explains less than tracking.inlier_share_min. Bound: two inverses, two eigen-decompositions, minimise_along and
-// find_minima.
+// least and a tenth at most. Other minima (minima.hpp) are looked for where the axis is not that certain. Nothing moves without
+// information, or where the registration explains less than tracking.inlier_share_min. Bound: two inverses, two eigen-decompositions,
+// minimise_along and find_minima.
 void minimise_weak_axis(const Mission& mission, const StartPoint& start, Workspace& workspace, HitSolution& hits);
 
 // Does the cost rise as the covariance says? Where it is not higher by kRise five sigmas off along an axis, either way, the sigma is
