@@ -100,7 +100,9 @@ for (const [width, height] of [
     }
   });
 
-test("on a narrow screen the views stand below each other, nothing is beside the screen, and the time line stays in reach", async ({ page }) => {
+test("on a narrow screen the views stand below each other, nothing is beside the screen, and the time line stays in reach", async ({
+  page,
+}) => {
   await page.setViewportSize({ width: 420, height: 900 });
   const beside = () => page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
   await page.getByRole("link", { name: "spin.mcap" }).waitFor();
