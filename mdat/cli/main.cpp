@@ -1,5 +1,5 @@
 // mdat, the mission design and analysis tool. Exit codes: 0 done, 1 the run failed, 2 usage or bad input, 3 done, but a picture could not
-// be drawn.
+// be drawn, 75 a campaign was stopped before its end.
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -70,7 +70,9 @@ int run(int argc, char** argv) {
   add_dictionary_command(app);
   add_monitor_command(app);
   add_serve_command(app);
-  app.footer("Exit codes: 0 done, 1 the run failed, 2 usage or bad input, 3 done, but a picture could not be drawn.");
+  app.footer(
+      "Exit codes: 0 done, 1 the run failed, 2 usage or bad input, 3 done, but a picture could not be drawn, 75 a campaign was stopped and "
+      "can go on.");
   try {
     app.parse(argc, argv);
     return kExitDone;

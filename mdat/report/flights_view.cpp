@@ -114,9 +114,9 @@ std::string settled_section(const TableResult& table) {
 std::string rates_figure(Plotter& plotter, const VariantResult& variant) {
   const std::size_t frames = longest_run(variant);
   Drawing drawing(plotter);
-  drawing.set("set multiplot layout 1,2 margins 0.06,0.86,0.18,0.91 spacing 0.07,0\nset format y '%g'\n");
+  drawing.set("set multiplot layout 1,2 margins 0.06,0.86,0.18,0.88 spacing 0.07,0\nset format y '%g'\n");
   drawing.set(format(
-      "set xrange [0:%zu]\nset xlabel 'frame' textcolor '#46505f'\nset key at screen 0.998,0.91 right top vertical samplen 1.5 spacing "
+      "set xrange [0:%zu]\nset xlabel 'frame' textcolor '#46505f'\nset key at screen 0.998,0.88 right top vertical samplen 1.5 spacing "
       "1.3\n",
       frames));
   drawing.set(settled_line(frames) + "set title 'rotation, deg/s'\n");

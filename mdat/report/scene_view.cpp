@@ -24,7 +24,7 @@ std::string seen_section(const std::vector<SeenPicture>& pictures) {
 std::string relative_section(const SimulationResult& result) {
   if (result.relative.empty()) return "";
   std::string html =
-      "<section>\n<h2>Poses between named frames</h2>\n<table>\n<tr><th></th><th>valid</th><th>rms, mm</th><th>rms, "
+      "<section>\n<h2>Poses between named frames</h2>\n<div class='wide'><table>\n<tr><th></th><th>valid</th><th>rms, mm</th><th>rms, "
       "deg</th><th>NEES of 6</th><th>filtered rms, mm</th><th>filtered rms, deg</th></tr>\n";
   for (const RelativeRun& run : result.relative) {
     const RelativeFigures figures = relative_figures(run);
@@ -33,7 +33,7 @@ std::string relative_section(const SimulationResult& result) {
       html += "<td>" + (std::isfinite(figure) ? format("%.4g", figure) : std::string("–")) + "</td>";
     html += "</tr>\n";
   }
-  return html + "</table>\n</section>\n";
+  return html + "</table></div>\n</section>\n";
 }
 
 }  // namespace lasso::mdat

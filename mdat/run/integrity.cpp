@@ -26,10 +26,10 @@ Json level_json(const LevelStatistics& level, const char* median, const char* wo
   return {{"misleading", level.misleading}, {median, level.median}, {worst, level.worst}};
 }
 
-// From a thousand on all digits: no powers of ten.
+// From a hundred on to whole units: no powers of ten.
 std::string digits(double value, int count, const char* nothing) {
   if (std::isnan(value)) return nothing;
-  return value >= 1000 ? format("%.0f", value) : format("%.*g", count, value);
+  return value >= 99.5 ? format("%.0f", value) : format("%.*g", count, value);
 }
 
 std::string none_text(std::size_t all) { return "at most " + upper_limit_text(upper_limit(0, all)); }

@@ -204,17 +204,25 @@ std::string groups_text(const char* title, const std::vector<TimelineGroup>& gro
   return text;
 }
 
+// Changes of mode and sensor, a line each, in the order of their times.
+std::string changes_text(const SimulationResult& result, const Timeline& timeline) {
+  std::multimap<double, std::string> lines;
+  for (const TimelineChange& change : timeline.changes)
+    lines.emplace(change.t_s, format("%-12s from %s: %s\n", to_string(change.to), to_string(change.from), meaning(change)));
+  for (const SensorChange& change : sensor_changes(timeline)) {
+    lines.emplace(change.t_s, format("sensor %s after %s, at %.1f m: %s\n", result.sensors.at(change.to).c_str(),
+                                     result.sensors.at(change.from).c_str(), change.range_m, to_string(change.reason)));
+  }
+  std::string text;
+  for (const auto& [t_s, line] : lines) text += format("  %7.1f  ", t_s) + line;
+  return text;
+}
+
 std::string timeline_text(const SimulationResult& result, const Timeline& timeline) {
   const TimelineStatistics run = timeline_statistics(timeline);
   std::string text =
-      format("%s, scenario %s: %zu frames\n\n  time, s  mode\n", result.mission.c_str(), result.scenario.c_str(), run.frames);
-  for (const TimelineChange& change : timeline.changes) {
-    text += format("  %7.1f  %-12s from %s: %s\n", change.t_s, to_string(change.to), to_string(change.from), meaning(change));
-  }
-  for (const SensorChange& change : sensor_changes(timeline)) {
-    text += format("  %7.1f  sensor %s after %s, at %.1f m: %s\n", change.t_s, result.sensors.at(change.to).c_str(),
-                   result.sensors.at(change.from).c_str(), change.range_m, to_string(change.reason));
-  }
+      format("%s, scenario %s: %zu frames\n\n  time, s  mode, or sensor\n", result.mission.c_str(), result.scenario.c_str(), run.frames);
+  text += changes_text(result, timeline);
   text += groups_text("by mode", by_mode(timeline)) + groups_text("by sensor", by_sensor(timeline, result.sensors)) +
           groups_text("by part", by_part(timeline, result.parts));
   if (run.valid == 0) return text + format("\n  no valid pose in %zu frames\n\n", run.frames);
@@ -246,17 +254,18 @@ std::string tracked_text(const TableResult& table) {
 }
 
 // "unchecked 26, weak 3": why frames of a variant are without a valid pose, the most frequent reason first; empty where all have one.
+// A frame of which no packet says anything, as the track was given up, is "no packet".
 std::string reasons_text(const VariantResult& variant) {
-  std::map<PoseReason, std::size_t> counts;
+  std::map<std::string, std::size_t> counts;
   for (const CaseResult& run : variant.cases) {
     for (const FrameError& frame : run.frames) {
-      if (frame.told && !frame.valid) ++counts[frame.reason];
+      if (!frame.valid) ++counts[frame.told ? to_string(frame.reason) : "no packet"];
     }
   }
-  std::vector<std::pair<PoseReason, std::size_t>> rows(counts.begin(), counts.end());
+  std::vector<std::pair<std::string, std::size_t>> rows(counts.begin(), counts.end());
   std::sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
   std::string text;
-  for (const auto& [reason, count] : rows) text += (text.empty() ? "" : ", ") + format("%s %zu", to_string(reason), count);
+  for (const auto& [reason, count] : rows) text += (text.empty() ? "" : ", ") + format("%s %zu", reason.c_str(), count);
   return text;
 }
 
@@ -345,10 +354,10 @@ std::vector<std::string> warnings_of(const TableResult& table) {
   std::vector<std::string> warnings;
   for (const VariantResult& variant : table.variants) {
     if (variant.all.wrong == 0) continue;
-    warnings.push_back(format(
-        "%s: %zu of %zu frames say valid and are wrong (off by more than 5 of their own sigma, and by more than 20 mm or 1 deg): some "
-        "views of this target are not to be trusted so",
-        variant.variant.title, variant.all.wrong, variant.all.frames));
+    warnings.push_back(
+        format("%s: %zu of %zu frames say valid and are wrong (off by more than 5 of their own sigma, and by more than 20 mm or 1 deg): in "
+               "some views of this target a valid pose may be wrong (docs/limits.md)",
+               variant.variant.title, variant.all.wrong, variant.all.frames));
   }
   return warnings;
 }

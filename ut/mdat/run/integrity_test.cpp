@@ -46,6 +46,15 @@ TEST(Integrity, ARowHasEpisodesTimesAndLevels) {
   EXPECT_EQ(row, expected);
 }
 
+TEST(Integrity, LargeLevelsHaveNoPowersOfTen) {
+  VERIFIES("LASSO-GND-131~1");
+  Integrity loose = of_poses(500);
+  loose.protection.position_mm = {0, 99.4, 44696.2};
+  loose.protection.attitude_deg = {0, 99.6, 180};
+  const std::vector<std::string> row = integrity_row("loose", loose, "-");
+  EXPECT_EQ(std::vector<std::string>(row.end() - 4, row.end()), (std::vector<std::string>{"99", "44696", "100", "180"}));
+}
+
 std::string list_text(const Integrity& integrity) {
   std::string text;
   for (const std::vector<std::string>& line : integrity_list(integrity)) text += line.at(0) + ": " + line.at(1) + "\n";

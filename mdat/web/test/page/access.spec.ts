@@ -100,6 +100,29 @@ for (const [width, height] of [
     }
   });
 
+test("on a narrow screen the views stand below each other, nothing is beside the screen, and the time line stays in reach", async ({
+  page,
+}) => {
+  await page.setViewportSize({ width: 420, height: 900 });
+  const beside = () => page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+  await page.getByRole("link", { name: "spin.mcap" }).waitFor();
+  expect(await beside(), "start").toBe(0);
+  await open(page, "spin.mcap", 40);
+  await page.screenshot({ path: join(OUT, "screenshots", "size-420.png") });
+  expect(await beside(), "replay").toBe(0);
+  let bottom = 0;
+  for (const view of ["scene", "why", "events", "plots"]) {
+    const box = (await page.locator(`[data-view="${view}"]`).boundingBox())!;
+    expect(box.y, view).toBeGreaterThanOrEqual(bottom - 1);
+    expect(box.x + box.width, view).toBeLessThanOrEqual(420);
+    bottom = box.y + box.height;
+  }
+  await expect(page.locator('[data-view="timeline"]')).toBeInViewport({ ratio: 1 });
+  await page.goto("/#/m/hubble_tenth");
+  await page.getByRole("heading", { name: "Tables" }).waitFor();
+  expect(await beside(), "design").toBe(0);
+});
+
 test("the theme is chosen by a key and kept", async ({ page }) => {
   await page.getByRole("link", { name: "spin.mcap" }).waitFor();
   await page.keyboard.press("t");
