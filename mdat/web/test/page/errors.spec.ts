@@ -1,6 +1,7 @@
 import { expect, open, test } from "./support.ts";
 
-test.use({ expected: { pattern: /Failed to load resource|ERR_/ } });
+// The token is taken away in one of them: the socket of the live run is then refused, which a browser says on its console.
+test.use({ expected: { pattern: /Failed to load resource|ERR_|HTTP Authentication failed/ } });
 
 test("a server that is gone is told, with what helps", async ({ page }) => {
   await page.getByRole("link", { name: "spin.mcap" }).waitFor();
