@@ -1,7 +1,6 @@
 import { expect, open, test } from "./support.ts";
 
-// The token is taken away in one of them: the socket of the live run is then refused, which a browser says on its console.
-test.use({ expected: { pattern: /Failed to load resource|ERR_|HTTP Authentication failed/ } });
+test.use({ expected: { pattern: /Failed to load resource|ERR_/ } });
 
 test("a server that is gone is told, with what helps", async ({ page }) => {
   await page.getByRole("link", { name: "spin.mcap" }).waitFor();
@@ -12,12 +11,18 @@ test("a server that is gone is told, with what helps", async ({ page }) => {
   await expect(page.getByRole("alert")).toHaveCount(0);
 });
 
-test("a browser without the token is told to open the printed address", async ({ page, context }) => {
-  await page.getByRole("link", { name: "spin.mcap" }).waitFor();
-  await context.clearCookies();
-  await page.getByRole("link", { name: "spin.mcap" }).click();
-  await expect(page.getByRole("alert")).toBeVisible();
-  await expect(page.getByRole("alert")).toContainText(/address|token/);
+test.describe("without the token", () => {
+  // The socket of the live run is refused as well, if the page opens it before it is told: the browser says so by itself.
+  const refused = /WebSocket connection to '[^']*\/api\/live\/socket' failed: HTTP Authentication failed/;
+  test.use({ expected: { pattern: new RegExp(`Failed to load resource|${refused.source}`) } });
+
+  test("a browser is told to open the printed address", async ({ page, context }) => {
+    await page.getByRole("link", { name: "spin.mcap" }).waitFor();
+    await context.clearCookies();
+    await page.getByRole("link", { name: "spin.mcap" }).click();
+    await expect(page.getByRole("alert")).toBeVisible();
+    await expect(page.getByRole("alert")).toContainText(/address|token/);
+  });
 });
 
 test("an address of a recording that is not there leads back to the list", async ({ page }) => {
