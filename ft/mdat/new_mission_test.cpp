@@ -275,5 +275,29 @@ TEST(NewMission, FliesWhateverTheMesh) {
   }
 }
 
+// A box without two of its triangles, and the same box with two of them wound the other way.
+TEST(NewMission, TellsWhatIsOddAboutAMesh) {
+  VERIFIES("LASSO-GND-166~1");
+  const WorkFolder work;
+  const Triangles whole = satellite();
+  work.write("hole.stl", stl_of(Triangles(whole.begin() + 2, whole.end())));
+  Triangles turned_over = whole;
+  std::swap(turned_over[3][0], turned_over[3][1]);
+  work.write("winding.stl", stl_of(turned_over));
+  work.write("whole.stl", stl_of(whole));
+  const std::string told[][3] = {{"hole", "  open: 4 edges belong to one triangle, and ", "warning: "},
+                                 {"winding", "  winding: 3 pairs of neighbours are wound against each other", "note: "},
+                                 {"whole", "  size: 1.3 x 3.2 x 0.6 m", ""}};
+  for (const auto& [name, line, kind] : told) {
+    const Answer written = work.mdat("mission new --model " + name + ".stl -o " + name + ".toml");
+    EXPECT_EQ(written.exit_code, 0) << written.err;
+    EXPECT_NE(written.out.find(line), std::string::npos) << written.out;
+    const Answer checked = work.mdat("mission check " + name + ".toml");
+    EXPECT_EQ(checked.exit_code, 0) << checked.err;
+    EXPECT_EQ(lines_of(checked.out).size(), kind.empty() ? 1U : 2U) << checked.out;
+    EXPECT_EQ(checked.out.find(kind), 0U) << checked.out;
+  }
+}
+
 }  // namespace
 }  // namespace lasso::ft
