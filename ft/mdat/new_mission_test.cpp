@@ -275,6 +275,24 @@ TEST(NewMission, FliesWhateverTheMesh) {
   }
 }
 
+TEST(NewMission, SaysTheSizeByItsScaleAndAsksAboutOneThatIsNoSpacecrafts) {
+  VERIFIES("LASSO-GND-043~1");
+  const WorkFolder work;
+  work.write("mm.stl", stl_of(scaled(satellite(), 200)));  // 0.64 m, in millimetres
+  const auto size_line = [&](const std::string& options) {
+    const std::string text = work.mdat("mission new --model mm.stl -o m.toml --force " + options).out;
+    const std::size_t at = text.find("size: ");
+    return text.substr(at, text.find('\n', at) - at);
+  };
+  EXPECT_EQ(size_line(""), "size: 260 x 640 x 120 m, by --scale 1: large for a spacecraft: in millimetres? --scale 0.001 makes it 0.64 m");
+  EXPECT_EQ(size_line("--scale 0.5"),
+            "size: 130 x 320 x 60 m, by --scale 0.5: large for a spacecraft: in millimetres? --scale 0.0005 makes it 0.32 m");
+  EXPECT_EQ(size_line("--scale 0.001"), "size: 0.26 x 0.64 x 0.12 m, by --scale 0.001");
+  EXPECT_EQ(size_line("--scale 1e-4"),
+            "size: 0.026 x 0.064 x 0.012 m, by --scale 0.0001: small for a spacecraft: another --scale may be needed; the file's lengths "
+            "times it are metres");
+}
+
 // A box without two of its triangles, and the same box with two of them wound the other way.
 TEST(NewMission, TellsWhatIsOddAboutAMesh) {
   VERIFIES("LASSO-GND-166~1");
@@ -287,7 +305,7 @@ TEST(NewMission, TellsWhatIsOddAboutAMesh) {
   work.write("whole.stl", stl_of(whole));
   const std::string told[][3] = {{"hole", "  open: 4 edges belong to one triangle, and ", "warning: "},
                                  {"winding", "  winding: 3 pairs of neighbours are wound against each other", "note: "},
-                                 {"whole", "  size: 1.3 x 3.2 x 0.6 m", ""}};
+                                 {"whole", "  size: 1.3 x 3.2 x 0.6 m, by --scale 1", ""}};
   for (const auto& [name, line, kind] : told) {
     const Answer written = work.mdat("mission new --model " + name + ".stl -o " + name + ".toml");
     EXPECT_EQ(written.exit_code, 0) << written.err;

@@ -171,6 +171,7 @@ std::vector<std::string> write_new_mission(const NewMissionRequest& request) {
   Mesh mesh = read_model(request, mission.remarks);
   mission.name = name_of(request);
   mission.sensor = request.sensor;
+  mission.scale = request.scale;  // of the file that was given, in what is said
   place(mission, mesh);
   const SurfaceFacts surface = surface_facts(mesh);
   const std::vector<MeshRemark> faults = mesh_remarks(mesh, request.model.extension() == ".toml");
