@@ -48,11 +48,18 @@ void CsvTable::read_header() {
     if (names.empty() || (marked && names.find(separator_) == std::string_view::npos)) continue;
     header_ = line;
     header_line_ = lines_.number();
-    for (const Field& field : split(names)) names_.push_back(lower(field.text));
+    for (const Field& field : split(names)) {
+      names_.push_back(lower(field.text));
+      name_begins_.push_back(static_cast<std::size_t>(names.data() - line.data()) + field.begin);
+    }
     if (names_.size() > 1 && names_.back().empty()) names_.pop_back();
     return;
   }
   fail(at_line(lines_.file(), 1) + ":1", "the file is empty, expected the header " + shown(expected_));
+}
+
+std::string CsvTable::header_place(std::size_t column) const {
+  return at_line(lines_.file(), header_line_) + ":" + std::to_string(name_begins_.at(column) + 1);
 }
 
 void CsvTable::refuse_header() const {

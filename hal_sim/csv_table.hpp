@@ -36,6 +36,7 @@ class CsvTable {
   std::string place() const { return lines_.place(); }
   std::string place(std::size_t column) const;  // file:line:column, from 1
   const std::string& name(std::size_t column) const { return names_.at(column); }
+  std::string header_place(std::size_t column) const;  // of its name
   [[noreturn]] void refuse_header() const;
 
  private:
@@ -50,6 +51,7 @@ class CsvTable {
   std::string expected_, header_;
   char separator_ = ',';
   std::vector<std::string> names_;
+  std::vector<std::size_t> name_begins_;  // in the header's line
   std::vector<Field> fields_;
   std::size_t header_line_ = 1;
 };

@@ -121,6 +121,22 @@ void RawScan::add_miss(const Vec3& unit, double time, std::size_t row) {
   rays.push_back({unit, time, row_number(row), false});
 }
 
+bool is_direction(const RawRay& ray) {
+  constexpr double kUnitTolerance = 1e-5;
+  return ray.hit && std::abs(ray.place.stableNorm() - 1) <= kUnitTolerance;
+}
+
+std::size_t count_directions(const RawScan& scan) {
+  return static_cast<std::size_t>(std::count_if(scan.rays.begin(), scan.rays.end(), is_direction));
+}
+
+bool has_directions(const RawScan& scan) {
+  constexpr std::size_t kLeast = 16, kShare = 10;
+  const std::size_t directions = count_directions(scan);
+  const auto hits = std::count_if(scan.rays.begin(), scan.rays.end(), [](const RawRay& ray) { return ray.hit; });
+  return directions >= kLeast && kShare * directions >= static_cast<std::size_t>(hits);
+}
+
 RangeImage to_image(const RawScan& scan, const ScanFrame& frame) {
   RangeImage image;
   image.misses_known = scan.misses_known;

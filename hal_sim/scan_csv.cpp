@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -6,6 +7,7 @@
 #include <limits>
 
 #include "hal_sim/csv_table.hpp"
+#include "hal_sim/scan_columns.hpp"
 
 namespace lasso::sim {
 namespace {
@@ -34,6 +36,13 @@ class Rows {
     scan.misses_known = valid_.has_value();
     scan.unit_s = unit_s_;
     scan.seconds_named = seconds_named_;
+  }
+
+  ReadColumns columns() const {
+    ReadColumns read{{xyz_.begin(), xyz_.end()}, valid_.has_value(), time_.has_value()};
+    if (valid_) read.columns.push_back(*valid_);
+    if (time_) read.columns.push_back(*time_);
+    return read;
   }
 
   void take(RawScan& scan) const {
@@ -75,6 +84,16 @@ class Rows {
   double unit_s_ = 0;
   bool seconds_named_ = false;
 };
+
+// A point of unit length is a direction, to five decimals, where many are: no scene has a tenth of its returns so close to a sphere.
+// Without a column of returns they may be the rays that missed.
+void check_directions(const RawScan& scan) {
+  if (scan.misses_known || !has_directions(scan)) return;
+  const auto first = std::find_if(scan.rays.begin(), scan.rays.end(), [](const RawRay& ray) { return is_direction(ray); });
+  fail(scan.place(*first), std::to_string(count_directions(scan)) + " of " + std::to_string(scan.rays.size()) +
+                               " points, this one first, have the length 1, as directions have; add a column valid: 0 for a ray that "
+                               "missed, 1 for a return, where the target truly is 1 away");
+}
 
 // What is wrong with the rows, on one line: the first fault in words, and on which lines others are.
 class RowFaults {
@@ -143,16 +162,22 @@ RawScan read_csv(const std::string& file, std::string_view text) {
   RawScan scan;
   scan.file = file;
   rows.describe(scan);
+  OtherColumns others(table, rows.columns());
   RowFaults faults;
   for (bool more = true; more;) {
     try {
       more = table.next();
+      const std::size_t rays = scan.rays.size();
       if (more) rows.take(scan);
+      if (scan.rays.size() > rays) others.look_at_row();
     } catch (const ScanFileError& fault) {
       faults.add(fault, table.line());
     }
   }
   faults.tell();
+  others.check();
+  check_directions(scan);
+  scan.warnings = others.warnings();
   if (scan.rays.empty() && scan.unmeasured == 0) fail(table.place(), "no row follows the header; a scan needs at least one");
   return scan;
 }

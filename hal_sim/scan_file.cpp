@@ -126,6 +126,8 @@ ScanFacts facts_of(const RawScan& scan, const RangeImage& image) {
   facts.hits = static_cast<std::size_t>(std::count_if(scan.rays.begin(), scan.rays.end(), [](const RawRay& ray) { return ray.hit; }));
   facts.misses = scan.rays.size() - facts.hits;
   facts.unmeasured = scan.unmeasured;
+  facts.directions = has_directions(scan) ? count_directions(scan) : 0;
+  facts.warnings = scan.warnings;
   for (const RangeSample& sample : image.samples) {
     facts.kept_hits += sample.state == RayState::kHit ? 1U : 0U;
     facts.kept_misses += sample.state == RayState::kMiss ? 1U : 0U;

@@ -2,7 +2,7 @@
 //
 //   .csv  header `t_s,x_m,y_m,z_m,valid`, one ray a row in time order. valid 1: the point hit; valid 0: a ray that missed, x,y,z its unit
 //         direction. Written with t_s rounded to microseconds. Read also without t_s, without valid, and with other columns
-//         (csv_table.hpp).
+//         (csv_table.hpp, scan_columns.hpp).
 //   .ply  ascii or binary; the element `vertex` has x, y, z.
 //   .pcd  ascii, binary or binary_compressed, seen from its VIEWPOINT.
 //   .asc, .xyz, .pts  plain text, x, y and z the first columns or those that a header names.
@@ -38,7 +38,7 @@ std::string scan_stem(const std::string& name);
 
 // Reads one file by its extension (any case). A file is read whole or not at all. Throws ScanFileError: cannot be read, unknown extension,
 // wrong header, ragged rows, not a number, valid neither 0 nor 1, a miss whose direction is not of unit length within 1e-3, time going
-// back, no row, truncated data.
+// back, a column beside which misses may be returns, no row, truncated data.
 RawScan read_raw_scan(const std::filesystem::path& file, const DepthCamera& camera = {});
 
 // The same as an image, scan_id 0. Throws as read_raw_scan and to_image.
@@ -55,6 +55,8 @@ struct ScanFacts {
   bool seconds_named = false;            // the header names seconds
   bool viewpoint = false;                // the file says where the sensor stood
   double median_range_m = 0;             // of the returns; 0 where there is none
+  std::size_t directions = 0;            // returns of length 1, where these are many (has_directions)
+  std::vector<std::string> warnings;     // of its reader, with the place
 };
 
 // Scans of any origin, in order.

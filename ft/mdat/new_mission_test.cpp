@@ -275,5 +275,47 @@ TEST(NewMission, FliesWhateverTheMesh) {
   }
 }
 
+TEST(NewMission, SaysTheSizeByItsScaleAndAsksAboutOneThatIsNoSpacecrafts) {
+  VERIFIES("LASSO-GND-043~1");
+  const WorkFolder work;
+  work.write("mm.stl", stl_of(scaled(satellite(), 200)));  // 0.64 m, in millimetres
+  const auto size_line = [&](const std::string& options) {
+    const std::string text = work.mdat("mission new --model mm.stl -o m.toml --force " + options).out;
+    const std::size_t at = text.find("size: ");
+    return text.substr(at, text.find('\n', at) - at);
+  };
+  EXPECT_EQ(size_line(""), "size: 260 x 640 x 120 m, by --scale 1: large for a spacecraft: in millimetres? --scale 0.001 makes it 0.64 m");
+  EXPECT_EQ(size_line("--scale 0.5"),
+            "size: 130 x 320 x 60 m, by --scale 0.5: large for a spacecraft: in millimetres? --scale 0.0005 makes it 0.32 m");
+  EXPECT_EQ(size_line("--scale 0.001"), "size: 0.26 x 0.64 x 0.12 m, by --scale 0.001");
+  EXPECT_EQ(size_line("--scale 1e-4"),
+            "size: 0.026 x 0.064 x 0.012 m, by --scale 0.0001: small for a spacecraft: another --scale may be needed; the file's lengths "
+            "times it are metres");
+}
+
+// A box without two of its triangles, and the same box with two of them wound the other way.
+TEST(NewMission, TellsWhatIsOddAboutAMesh) {
+  VERIFIES("LASSO-GND-166~1");
+  const WorkFolder work;
+  const Triangles whole = satellite();
+  work.write("hole.stl", stl_of(Triangles(whole.begin() + 2, whole.end())));
+  Triangles turned_over = whole;
+  std::swap(turned_over[3][0], turned_over[3][1]);
+  work.write("winding.stl", stl_of(turned_over));
+  work.write("whole.stl", stl_of(whole));
+  const std::string told[][3] = {{"hole", "  open: 4 edges belong to one triangle, and ", "warning: "},
+                                 {"winding", "  winding: 3 pairs of neighbours are wound against each other", "note: "},
+                                 {"whole", "  size: 1.3 x 3.2 x 0.6 m, by --scale 1", ""}};
+  for (const auto& [name, line, kind] : told) {
+    const Answer written = work.mdat("mission new --model " + name + ".stl -o " + name + ".toml");
+    EXPECT_EQ(written.exit_code, 0) << written.err;
+    EXPECT_NE(written.out.find(line), std::string::npos) << written.out;
+    const Answer checked = work.mdat("mission check " + name + ".toml");
+    EXPECT_EQ(checked.exit_code, 0) << checked.err;
+    EXPECT_EQ(lines_of(checked.out).size(), kind.empty() ? 1U : 2U) << checked.out;
+    EXPECT_EQ(checked.out.find(kind), 0U) << checked.out;
+  }
+}
+
 }  // namespace
 }  // namespace lasso::ft

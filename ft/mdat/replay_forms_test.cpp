@@ -313,6 +313,28 @@ TEST_F(ReplayForms, TellsHowManyRaysContradict) {
   EXPECT_EQ(work.mdat(scans + " --set sensor.dropout_probability=0.2").err.find("contradict"), std::string::npos);
 }
 
+// Misses under another name than `valid` would be returns at 1 m, of which wrong poses were made that were called valid.
+TEST_F(ReplayForms, RefusesMissesUnderAnotherName) {
+  VERIFIES("LASSO-SIM-071~1 LASSO-MDT-124~1");
+  for (const Row& scan : table(work.read("rec/4m/truth.csv"))) {
+    std::string text = work.read("rec/4m/scans/" + scan.at("scan") + ".csv");
+    work.write("ok/" + scan.at("scan") + ".csv", text.replace(text.find("valid"), 5, "ok"));
+  }
+  const std::string command = "replay image.3dli --initial rec/4m/poses.csv -o other.csv --scans ";
+  const Answer answer = work.mdat(command + "ok");
+  EXPECT_EQ(answer.exit_code, 2) << answer.out;
+  EXPECT_NE(answer.err.find("f00000.csv:1:17: column \"ok\" is not known"), std::string::npos) << answer.err;
+  EXPECT_FALSE(std::filesystem::exists(work / "other.csv"));
+  const std::string name = "rec/4m/scans/f00003.csv", text = work.read(name);
+  std::string more = lines_of(text)[0] + ",foo\n";
+  for (std::size_t i = 1; i < lines_of(text).size(); ++i) more += lines_of(text)[i] + ",7\n";
+  work.write(name, more);
+  const Answer told = work.mdat(command + "rec/4m/scans");
+  EXPECT_EQ(told.exit_code, 0) << told.err;
+  EXPECT_NE(told.err.find("f00003.csv:1:23: not known, and not read: column \"foo\""), std::string::npos) << told.err;
+  expect_near_truth(table(work.read("other.csv")), 1e-3, 0.002);
+}
+
 TEST_F(ReplayForms, ReadsOtherAxesFromASensorThatStandsAside) {
   VERIFIES("LASSO-MDT-077~1");
   write_changed(work, "frd", [](Row& row) {

@@ -13,7 +13,7 @@ namespace lasso::mdat {
 namespace {
 
 constexpr double kLargeCraft_m = 110;  // the International Space Station is 109 m wide
-constexpr double kSmallCraft_m = 0.05;
+constexpr double kSmallCraft_m = 0.1;  // a CubeSat's unit
 
 std::string text(double value) { return number_text(rounded(value)); }
 
@@ -23,11 +23,13 @@ double preset(const std::string& key) { return find_row(flight_rows(), key)->pre
 
 std::string size_line(const Known& known) {
   const double largest_m = known.mission.size.largest_m;
-  std::string line = "size: " + length_text(known.mission.size.sides);
+  const std::string scale = number_text(known.mission.scale);
+  std::string line = "size: " + length_text(known.mission.size.sides) + ", by --scale " + scale;
   if (largest_m > kLargeCraft_m)
-    return line + ", large for a spacecraft: in millimetres? --scale " + number_text(0.001 * known.mission.scale) + " makes it " +
+    return line + ": large for a spacecraft: in millimetres? --scale " + number_text(rounded(0.001 * known.mission.scale)) + " makes it " +
            text(0.001 * largest_m) + " m";
-  if (largest_m < kSmallCraft_m) return line + ", small for a spacecraft: is --scale " + number_text(known.mission.scale) + " right?";
+  if (largest_m < kSmallCraft_m)
+    return line + ": small for a spacecraft: another --scale may be needed; the file's lengths times it are metres";
   return line;
 }
 

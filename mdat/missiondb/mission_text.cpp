@@ -8,6 +8,7 @@
 #include "mdat/missiondb/detector_reader.hpp"
 #include "mdat/missiondb/flash_rows.hpp"
 #include "mdat/missiondb/laser_safety.hpp"
+#include "mdat/missiondb/mesh_faults.hpp"
 #include "mdat/missiondb/rule.hpp"
 #include "mdat/missiondb/sections.hpp"
 #include "mdat/missiondb/sensor_reader.hpp"
@@ -210,14 +211,27 @@ std::optional<std::string> value_without(const std::filesystem::path& file, cons
   }
 }
 
+// What is odd about a surface, a line each.
+std::string surface_text(const std::filesystem::path& file, const Mesh& mesh, bool parametric) {
+  std::string text;
+  for (const MeshRemark& remark : mesh_remarks(mesh, parametric))
+    text += (remark.follows ? "warning: " : "note: ") + file.string() + ": " + remark.text + '\n';
+  return text;
+}
+
 }  // namespace
 
 std::string check_text(const MissionSource& source, const Mesh& mesh) {
   std::ostringstream out;
   std::vector<std::string> warnings = warnings_for(source, "");
-  for (const PartSource& part : source.parts) static_cast<void>(load_part(source, part, mesh, &warnings));
+  std::string surfaces = surface_text(source.target.file, mesh, source.target.parametric);
+  for (const PartSource& part : source.parts) {
+    const Mesh of_part = load_part(source, part, mesh, &warnings);
+    if (!part.file.empty()) surfaces += surface_text(part.file, of_part, part.parametric);
+  }
   const Box box = box_of(mesh);
   for (const std::string& warning : warnings) out << "warning: " << warning << '\n';
+  out << surfaces;
   const Eigen::Vector3d size = box.high - box.low;
   out << source.file.string() << ": good: mission " << source.id << " \"" << source.name << "\" version " << source.version
       << ", target of " << mesh.triangles.size() << " triangles, " << std::setprecision(4) << size.x() << " x " << size.y() << " x "

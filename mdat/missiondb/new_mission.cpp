@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mdat/missiondb/guesses.hpp"
+#include "mdat/missiondb/mesh_faults.hpp"
 #include "mdat/missiondb/mesh_import.hpp"
 #include "mdat/missiondb/mission_writer.hpp"
 #include "mdat/missiondb/model_file.hpp"
@@ -170,8 +171,10 @@ std::vector<std::string> write_new_mission(const NewMissionRequest& request) {
   Mesh mesh = read_model(request, mission.remarks);
   mission.name = name_of(request);
   mission.sensor = request.sensor;
+  mission.scale = request.scale;  // of the file that was given, in what is said
   place(mission, mesh);
   const SurfaceFacts surface = surface_facts(mesh);
+  const std::vector<MeshRemark> faults = mesh_remarks(mesh, request.model.extension() == ".toml");
   std::optional<Simplified> coarser;
   if (request.simplify > 0) coarser = simplified(request, mesh);
   if (coarser) mesh = coarser->mesh;
@@ -181,6 +184,7 @@ std::vector<std::string> write_new_mission(const NewMissionRequest& request) {
   mission.surface_sigma_m = guessed_surface_sigma_m(mission.size, surface, coarser);
   const std::vector<std::string> guessed = guesses({mission, surface, coarser, part_widths_m(mesh), trial.tables, trial.report});
   mission.remarks.insert(mission.remarks.end(), guessed.begin(), guessed.end());
+  for (const MeshRemark& fault : faults) mission.remarks.push_back(fault.text);
 
   const fs::path simplified_file = request.out.parent_path() / (request.out.stem().string() + "_simplified.stl");
   const bool made = !request.model_text.empty();

@@ -68,6 +68,28 @@ void add_thinned(const std::vector<ScanFacts>& facts, Notes& notes) {
   notes.push_back(text);
 }
 
+void add_warnings(const std::vector<ScanFacts>& facts, Notes& notes) {
+  const auto has_warnings = [](const ScanFacts& scan) { return !scan.warnings.empty(); };
+  const auto first = std::find_if(facts.begin(), facts.end(), has_warnings);
+  if (first == facts.end()) return;
+  for (const std::string& warning : first->warnings)
+    notes.push_back("warning: " + warning + " (warned of " + share(count_if(facts, has_warnings), facts.size()) + ")");
+}
+
+void add_directions(const std::vector<ScanFacts>& facts, Notes& notes) {
+  const std::size_t scans = count_if(facts, [](const ScanFacts& scan) { return scan.directions > 0; });
+  if (scans == 0) return;
+  std::size_t directions = 0, hits = 0;
+  for (const ScanFacts& scan : facts) {
+    directions += scan.directions;
+    hits += scan.hits;
+  }
+  notes.push_back(
+      format("warning: %zu of %zu returns have the length 1, as directions have (in %s): they are read as returns; leave rays that missed "
+             "out of a cloud, or write them into a CSV file with valid 0",
+             directions, hits, share(scans, facts.size()).c_str()));
+}
+
 // By the ratio of a span in it to the mission's.
 const Unit& closest_unit(double span, double duration_s) {
   const auto off = [&](const Unit& unit) { return std::abs(std::log(span * unit.unit_s / duration_s)); };
@@ -134,6 +156,8 @@ Notes mixed_unit_notes(const sim::RecordedScans& scans, const std::vector<ScanFa
 
 Notes row_notes(const std::vector<ScanFacts>& facts) {
   Notes notes;
+  add_warnings(facts, notes);
+  add_directions(facts, notes);
   add_unmeasured(facts, notes);
   add_thinned(facts, notes);
   const std::size_t turned = count_if(facts, [](const ScanFacts& scan) { return scan.viewpoint; });

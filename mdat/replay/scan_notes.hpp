@@ -23,7 +23,7 @@ Notes time_unit_note(const std::vector<sim::ScanFacts>& facts, double duration_s
 // Scans whose spans are those of the others in another unit: a thousand, a million or sixty times as long or as short, within 20 %.
 Notes mixed_unit_notes(const sim::RecordedScans& scans, const std::vector<sim::ScanFacts>& facts, double unit_s);
 
-// Rows without a measurement, clouds that were thinned, VIEWPOINT.
+// What the readers warn of, returns that may be directions, rows without a measurement, clouds that were thinned, VIEWPOINT.
 Notes row_notes(const std::vector<sim::ScanFacts>& facts);
 
 // Times that step back from a scan to the next one, here and there, at each of them, or as those of a series in reversed order do.

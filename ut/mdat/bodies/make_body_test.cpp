@@ -6,6 +6,7 @@
 #include <set>
 
 #include "mdat/bodies/body.hpp"
+#include "mdat/missiondb/mesh_faults.hpp"
 #include "mdat/missiondb/solid.hpp"
 #include "ut/mdat/bodies/surface_distance.hpp"
 #include "ut/support/verifies.hpp"
@@ -94,6 +95,13 @@ TEST(MakeBody, SameSeedGivesTheSameBytesAndAnotherOneOthers) {
     texts.insert(text);
   }
   EXPECT_EQ(texts.size(), kSeeds);
+}
+
+TEST(MakeBody, NothingIsOddAboutItsSurface) {
+  VERIFIES("LASSO-GND-166~1");
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    for (const MeshRemark& remark : mesh_remarks(mesh_of(make_body(seed)), true)) ADD_FAILURE() << seed << ": " << remark.text;
+  }
 }
 
 TEST(MakeBody, SolidsAreClosedAndOfTheStatedSizes) {

@@ -43,11 +43,19 @@ struct Target {
 TEST(Guesses, ASizeThatIsNoSpacecraftsIsAskedAbout) {
   VERIFIES("LASSO-GND-043~1");
   Target target;
-  EXPECT_EQ(target.line("size"), "size: 1.3 x 0.5 x 0.4 m");
+  EXPECT_EQ(target.line("size"), "size: 1.3 x 0.5 x 0.4 m, by --scale 1");
+  target.mission.size.largest_m = 110;
+  EXPECT_EQ(target.line("size").find("spacecraft"), std::string::npos) << "a space station";
   target.mission.size.largest_m = 340;
   EXPECT_NE(target.line("size").find("in millimetres? --scale 0.001 makes it 0.34 m"), std::string::npos) << target.line("size");
-  target.mission.size.largest_m = 0.013;
-  EXPECT_NE(target.line("size").find("is --scale 1 right?"), std::string::npos) << target.line("size");
+  target.mission.scale = 0.01;
+  EXPECT_NE(target.line("size").find("by --scale 0.01: large for a spacecraft: in millimetres? --scale 1e-05 makes it 0.34 m"),
+            std::string::npos)
+      << target.line("size");
+  target.mission.size.largest_m = 0.1;
+  EXPECT_EQ(target.line("size").find("spacecraft"), std::string::npos) << "a CubeSat";
+  target.mission.size.largest_m = 0.099;
+  EXPECT_NE(target.line("size").find("small for a spacecraft: another --scale may be needed"), std::string::npos) << target.line("size");
 }
 
 TEST(Guesses, AMeshOffItsOriginIsTold) {

@@ -1,0 +1,128 @@
+#include "mdat/missiondb/mesh_faults.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mdat/modelc/outward.hpp"
+#include "mdat/modelc/repair.hpp"
+#include "mdat/modelc/topology.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+constexpr double kSheet = 0.5;    // opening over surface: more is a sheet or a dish
+constexpr double kCracks = 0.01;  // of the surface: where less is seen from behind, hardly a ray goes in
+
+void count_edges(const Surface& surface, MeshFaults& faults) {
+  for_each_edge(edge_uses(surface), [&](const EdgeUse* first, const EdgeUse* last) {
+    const auto uses = last - first;
+    faults.open_edges += uses == 1;
+    faults.crowded_edges += uses > 2;
+    faults.opposite_pairs += uses == 2 && first[0].forward == first[1].forward;
+  });
+}
+
+Vec3d twice_area(const Surface& surface, std::size_t t) {
+  return (surface.corner(t, 1) - surface.corner(t, 0)).cross(surface.corner(t, 2) - surface.corner(t, 0));
+}
+
+// Components that enclose little. Of a surface whose triangles agree, the sum of areas along the normals is that of its openings (Stokes);
+// of a flat sheet it is as large as the surface, of half a sphere half as large, of a box without one of its faces less.
+std::vector<bool> sheets_of(const Surface& surface, const Components& components) {
+  std::vector<Vec3d> opening(components.count(), Vec3d::Zero());
+  std::vector<double> area(components.count(), 0);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const Vec3d twice = twice_area(surface, t);
+    opening[components.of_triangle[t]] += twice;
+    area[components.of_triangle[t]] += twice.norm();
+  }
+  std::vector<bool> sheets;
+  for (std::size_t c = 0; c < area.size(); ++c) sheets.push_back(opening[c].norm() > kSheet * area[c]);
+  return sheets;
+}
+
+// The compiler's own judgement of what light from far away reaches.
+std::size_t count_seen_behind(Surface surface) {
+  CompileReport ignored;
+  const Components components = orient_consistently(surface, ignored);
+  const std::vector<bool> sheets = sheets_of(surface, components);
+  std::fill(surface.two_sided.begin(), surface.two_sided.end(), std::uint8_t{0});  // what is given twice is no hole
+  turn_outward(surface, components, ignored);
+  std::size_t seen = 0;
+  double seen_area = 0, area = 0;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const double of_triangle = twice_area(surface, t).norm();
+    const bool is_seen = surface.two_sided[t] != 0 && !sheets[components.of_triangle[t]];
+    seen += is_seen;
+    seen_area += is_seen ? of_triangle : 0;
+    area += of_triangle;
+  }
+  return seen_area < kCracks * area ? 0 : seen;
+}
+
+// "1 edge belongs", "2 edges belong".
+std::string counted(std::size_t count, const char* one, const char* more) {
+  return std::to_string(count) + ' ' + (count == 1 ? one : more);
+}
+
+std::string open_text(const MeshFaults& faults) {
+  if (faults.seen_behind == 0) return "";
+  return "open: " + counted(faults.open_edges, "edge belongs", "edges belong") + " to one triangle, and " +
+         counted(faults.seen_behind, "triangle is", "triangles are") +
+         " seen from behind: rays go in where the surface ends; a target that is closed there does not fit: close the mesh; a thin sheet "
+         "or "
+         "dish may stay as it is";
+}
+
+std::string crowded_text(const MeshFaults& faults) {
+  if (faults.crowded_edges == 0) return "";
+  return "edges: " + counted(faults.crowded_edges, "belongs", "belong") +
+         " to more than two triangles: the surface is taken apart there, each piece turned outwards by itself; poses are as good; a union "
+         "of the "
+         "solids without inner walls has none";
+}
+
+std::string winding_text(const MeshFaults& faults) {
+  if (faults.opposite_pairs == 0) return "";
+  return "winding: " + counted(faults.opposite_pairs, "pair of neighbours is", "pairs of neighbours are") +
+         " wound against each other: triangles are turned until they agree, and face outwards; poses are as good; to cut parts out of the "
+         "target (box_m), let its program make the normals consistent, as the inside of a part is seen otherwise";
+}
+
+std::string triangles_text(const MeshFaults& faults) {
+  if (faults.degenerate + faults.duplicates == 0) return "";
+  return "triangles: " + std::to_string(faults.degenerate) + " without area and " + std::to_string(faults.duplicates) +
+         " given twice are left out: poses are as good; the clean-up of any modelling program takes them out of the file";
+}
+
+}  // namespace
+
+MeshFaults mesh_faults(const Mesh& mesh) {
+  CompileReport report;
+  const Surface surface = repair_mesh(mesh, 0, report);
+  MeshFaults faults;
+  faults.degenerate = report.dropped_degenerate;
+  faults.duplicates = report.dropped_duplicates;
+  count_edges(surface, faults);
+  if (faults.open_edges > 0) faults.seen_behind = count_seen_behind(surface);
+  return faults;
+}
+
+std::vector<MeshRemark> mesh_remarks(const MeshFaults& faults) {
+  std::vector<MeshRemark> remarks = {
+      {true, open_text(faults)}, {false, crowded_text(faults)}, {false, winding_text(faults)}, {false, triangles_text(faults)}};
+  std::erase_if(remarks, [](const MeshRemark& remark) { return remark.text.empty(); });
+  return remarks;
+}
+
+std::vector<MeshRemark> mesh_remarks(const Mesh& mesh, bool parametric) {
+  try {
+    std::vector<MeshRemark> remarks = mesh_remarks(mesh_faults(mesh));
+    if (parametric) std::erase_if(remarks, [](const MeshRemark& remark) { return !remark.follows; });
+    return remarks;
+  } catch (const CompileError& error) {
+    return {{true, std::string("mesh: it cannot be compiled: ") + error.what()}};
+  }
+}
+
+}  // namespace lasso::mdat

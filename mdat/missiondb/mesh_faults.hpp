@@ -1,0 +1,35 @@
+// What is odd about a mesh as a closed surface: counted after equal vertices are joined, as the model compiler does, and said in words.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mdat/modelc/mesh.hpp"
+
+namespace lasso::mdat {
+
+struct MeshFaults {
+  std::size_t open_edges = 0;  // of one triangle
+  std::size_t seen_behind =
+      0;  // triangles of open parts, but sheets and dishes, whose back rays from outside reach; 0 below a hundredth of the area
+  std::size_t crowded_edges = 0;   // of more than two triangles
+  std::size_t opposite_pairs = 0;  // triangles that share an edge of two and run along it the same way
+  std::size_t degenerate = 0;      // triangles without area
+  std::size_t duplicates = 0;      // triangles given twice, in either winding
+};
+
+// Throws CompileError, as compile_model does of a mesh that cannot be repaired. Open parts cost 128 rays a triangle, others none.
+MeshFaults mesh_faults(const Mesh& mesh);
+
+// One that follows changes what scans fit the model; without it, nothing follows for poses.
+struct MeshRemark {
+  bool follows = false;
+  std::string text;  // a topic, what was counted, what follows, and the remedy
+};
+std::vector<MeshRemark> mesh_remarks(const MeshFaults& faults);
+
+// The same of a mesh; of one that cannot be compiled that and why. Solids of a parametric model share faces by design: of them what follows
+// alone.
+std::vector<MeshRemark> mesh_remarks(const Mesh& mesh, bool parametric);
+
+}  // namespace lasso::mdat

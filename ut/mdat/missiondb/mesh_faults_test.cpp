@@ -1,0 +1,182 @@
+#include "mdat/missiondb/mesh_faults.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mdat/missiondb/mission_source.hpp"
+#include "ut/mdat/missiondb/support.hpp"
+#include "ut/mdat/modelc/meshes.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+Mesh craft() {
+  Mesh mesh = shapes::box({0, 0, 0}, {1, 0.8, 0.5});
+  shapes::append(mesh, shapes::box({2, 0, 0}, {3, 0.4, 0.02}));
+  return mesh;
+}
+
+std::vector<std::string> topics(const MeshFaults& faults) {
+  std::vector<std::string> topics;
+  for (const MeshRemark& remark : mesh_remarks(faults)) topics.push_back(remark.text.substr(0, remark.text.find(':')));
+  return topics;
+}
+
+using Topics = std::vector<std::string>;
+
+TEST(MeshFaults, ClosedSolidsHaveNone) {
+  VERIFIES("LASSO-GND-166~1");
+  EXPECT_EQ(topics(mesh_faults(craft())), Topics{});
+  EXPECT_EQ(topics(mesh_faults(shapes::sphere(0.5, 12, 20))), Topics{});
+}
+
+// Triangles as an STL has them, each with corners of its own: the same surface.
+TEST(MeshFaults, AreCountedOnceVerticesAreJoined) {
+  VERIFIES("LASSO-GND-166~1");
+  const Mesh mesh = craft();
+  Mesh apart;
+  for (const auto& t : mesh.triangles) {
+    const auto first = static_cast<std::uint32_t>(apart.vertices.size());
+    for (const std::uint32_t v : t) apart.vertices.push_back(mesh.vertices[v]);
+    apart.triangles.push_back({first, first + 1, first + 2});
+  }
+  EXPECT_EQ(topics(mesh_faults(apart)), Topics{});
+}
+
+TEST(MeshFaults, AHoleIsWarnedOfByItsEdgesAndTheInsideThatShows) {
+  VERIFIES("LASSO-GND-166~1");
+  Mesh mesh = craft();
+  mesh.triangles.erase(mesh.triangles.begin());
+  const MeshFaults faults = mesh_faults(mesh);
+  EXPECT_EQ(faults.open_edges, 3U);
+  EXPECT_GE(faults.seen_behind, 4U) << "the sides across the hole";
+  EXPECT_LE(faults.seen_behind, 11U) << "of the box of 11 triangles alone";
+  ASSERT_EQ(topics(faults), Topics{"open"});
+  EXPECT_TRUE(mesh_remarks(faults)[0].follows);
+  EXPECT_NE(mesh_remarks(faults)[0].text.find("3 edges belong to one triangle"), std::string::npos);
+}
+
+TEST(MeshFaults, AFlatSheetIsNoHole) {
+  VERIFIES("LASSO-GND-166~1");
+  Mesh mesh = craft();
+  Mesh sheet;
+  sheet.vertices = {{-2, 0, 0.1}, {-1, 0, 0.1}, {-1, 1, 0.1}, {-2, 1, 0.1}};
+  sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
+  shapes::append(mesh, sheet);
+  EXPECT_EQ(mesh_faults(mesh).open_edges, 4U);
+  EXPECT_EQ(topics(mesh_faults(mesh)), Topics{});
+}
+
+// A scan's mesh has small ones, of a triangle or two.
+TEST(MeshFaults, ACrackIsNoHole) {
+  VERIFIES("LASSO-GND-166~1");
+  Mesh mesh = shapes::sphere(0.5, 40, 80);
+  mesh.triangles.erase(mesh.triangles.begin() + 3000);
+  EXPECT_EQ(mesh_faults(mesh).open_edges, 3U);
+  EXPECT_EQ(topics(mesh_faults(mesh)), Topics{});
+}
+
+// z = depth r^2: a shallow one is a dish, a deep one encloses space.
+Mesh bowl(double depth) {
+  constexpr std::uint32_t kRings = 12, kAround = 24;
+  Mesh mesh;
+  mesh.vertices.emplace_back(0, 0, 0);
+  for (std::uint32_t ring = 1; ring <= kRings; ++ring) {
+    for (std::uint32_t i = 0; i < kAround; ++i) {
+      const double r = static_cast<double>(ring) / kRings, angle = 2 * M_PI * i / kAround;
+      mesh.vertices.emplace_back(r * std::cos(angle), r * std::sin(angle), depth * r * r);
+      const std::uint32_t a = 1 + (ring - 1) * kAround + i, b = 1 + (ring - 1) * kAround + (i + 1) % kAround;
+      if (ring == 1) mesh.triangles.push_back({0, a, b});
+      if (ring == 1) continue;
+      mesh.triangles.push_back({a - kAround, a, b});
+      mesh.triangles.push_back({a - kAround, b, b - kAround});
+    }
+  }
+  return mesh;
+}
+
+TEST(MeshFaults, ADishIsNoHoleAndADeepCupIs) {
+  VERIFIES("LASSO-GND-166~1");
+  EXPECT_EQ(topics(mesh_faults(bowl(0.4))), Topics{});
+  EXPECT_EQ(mesh_faults(bowl(3)).open_edges, 24U);
+  EXPECT_EQ(topics(mesh_faults(bowl(3))), Topics{"open"});
+}
+
+TEST(MeshFaults, AnInnerWallHasEdgesOfThreeAndNoHole) {
+  VERIFIES("LASSO-GND-166~1");
+  Mesh mesh = shapes::box({0, 0, 0}, {1, 0.8, 0.5});
+  const auto corner = [&](double x, double y, double z) {
+    const auto at = std::find_if(mesh.vertices.begin(), mesh.vertices.end(),
+                                 [&](const Eigen::Vector3d& v) { return (v - Eigen::Vector3d(x, y, z)).norm() < 1e-12; });
+    return static_cast<std::uint32_t>(at - mesh.vertices.begin());
+  };
+  // From edge to opposite edge: two of its edges are the box's, and two are diagonals of faces, or close to them.
+  mesh.triangles.push_back({corner(0, 0, 0), corner(1, 0.8, 0), corner(1, 0.8, 0.5)});
+  mesh.triangles.push_back({corner(0, 0, 0), corner(1, 0.8, 0.5), corner(0, 0, 0.5)});
+  const MeshFaults faults = mesh_faults(mesh);
+  EXPECT_GE(faults.crowded_edges, 2U);
+  EXPECT_EQ(faults.seen_behind, 0U);
+  EXPECT_EQ(topics(faults), Topics{"edges"});
+  EXPECT_FALSE(mesh_remarks(faults)[0].follows);
+}
+
+TEST(MeshFaults, OppositeWindingIsCountedByPairs) {
+  VERIFIES("LASSO-GND-166~1");
+  Mesh mesh = craft();
+  std::swap(mesh.triangles[4][0], mesh.triangles[4][1]);
+  EXPECT_EQ(mesh_faults(mesh).opposite_pairs, 3U);
+  EXPECT_EQ(topics(mesh_faults(mesh)), Topics{"winding"});
+  for (auto& t : mesh.triangles) std::swap(t[0], t[1]);
+  EXPECT_EQ(mesh_faults(mesh).opposite_pairs, 3U) << "all inside out: the same pairs";
+}
+
+// A box on another one: both have the face between them.
+TEST(MeshFaults, OfAParametricModelFacesInCommonAreNoRemark) {
+  VERIFIES("LASSO-GND-166~1");
+  Mesh mesh = shapes::box({0, 0, 0}, {1, 0.8, 0.5});
+  shapes::append(mesh, shapes::box({0, 0, 0.5}, {1, 0.8, 0.9}));
+  EXPECT_EQ(mesh_remarks(mesh, false).size(), 2U) << "edges, and triangles";
+  EXPECT_TRUE(mesh_remarks(mesh, true).empty());
+  mesh.triangles.pop_back();
+  mesh.triangles.pop_back();  // a face of the upper one
+  ASSERT_EQ(mesh_remarks(mesh, true).size(), 1U);
+  EXPECT_EQ(mesh_remarks(mesh, true)[0].text.substr(0, 5), "open:");
+}
+
+TEST(MeshFaults, TrianglesThatAreLeftOutAreCounted) {
+  VERIFIES("LASSO-GND-166~1");
+  Mesh mesh = craft();
+  const auto t = mesh.triangles[0];
+  mesh.triangles.push_back({t[1], t[2], t[0]});
+  mesh.triangles.push_back({t[1], t[0], t[2]});
+  mesh.triangles.push_back({t[0], t[0], t[1]});
+  const MeshFaults faults = mesh_faults(mesh);
+  EXPECT_EQ(faults.duplicates, 2U);
+  EXPECT_EQ(faults.degenerate, 1U);
+  EXPECT_EQ(topics(faults), Topics{"triangles"});
+}
+
+TEST(MeshFaults, AMeshThatCannotBeCompiledIsTold) {
+  VERIFIES("LASSO-GND-166~1");
+  Mesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  const std::vector<MeshRemark> remarks = mesh_remarks(mesh, false);
+  ASSERT_EQ(remarks.size(), 1U);
+  EXPECT_EQ(remarks[0].text.find("mesh: it cannot be compiled: "), 0U);
+}
+
+TEST(MeshFaults, ShippedModelsHaveNone) {
+  VERIFIES("LASSO-GND-166~1");
+  for (const char* name : {"hubble_tenth", "hubble", "hubble_near", "hubble_stereo", "day_and_night", "laboratory", "rendezvous"}) {
+    const MissionSource source = load_mission(kSourceFolder / "cfg/missions" / (std::string(name) + ".toml"));
+    for (const MeshRemark& remark : mesh_remarks(load_target(source), source.target.parametric))
+      ADD_FAILURE() << name << ": " << remark.text;
+  }
+}
+
+}  // namespace
+}  // namespace lasso::mdat
