@@ -70,16 +70,14 @@ std::string open_text(const MeshFaults& faults) {
   return "open: " + counted(faults.open_edges, "edge belongs", "edges belong") + " to one triangle, and " +
          counted(faults.seen_behind, "triangle is", "triangles are") +
          " seen from behind: rays go in where the surface ends; a target that is closed there does not fit: close the mesh; a thin sheet "
-         "or "
-         "dish may stay as it is";
+         "or dish may stay as it is";
 }
 
 std::string crowded_text(const MeshFaults& faults) {
   if (faults.crowded_edges == 0) return "";
   return "edges: " + counted(faults.crowded_edges, "belongs", "belong") +
          " to more than two triangles: the surface is taken apart there, each piece turned outwards by itself; poses are as good; a union "
-         "of the "
-         "solids without inner walls has none";
+         "of the solids without inner walls has none";
 }
 
 std::string winding_text(const MeshFaults& faults) {

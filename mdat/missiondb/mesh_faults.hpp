@@ -10,8 +10,8 @@ namespace lasso::mdat {
 
 struct MeshFaults {
   std::size_t open_edges = 0;  // of one triangle
-  std::size_t seen_behind =
-      0;  // triangles of open parts, but sheets and dishes, whose back rays from outside reach; 0 below a hundredth of the area
+  // Triangles of open parts, but not of sheets and dishes, whose back rays from outside reach; 0 below a hundredth of the area.
+  std::size_t seen_behind = 0;
   std::size_t crowded_edges = 0;   // of more than two triangles
   std::size_t opposite_pairs = 0;  // triangles that share an edge of two and run along it the same way
   std::size_t degenerate = 0;      // triangles without area
