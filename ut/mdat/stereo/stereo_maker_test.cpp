@@ -35,7 +35,7 @@ std::vector<RangeSample> scans_of(const MissionInput& mission, std::uint64_t see
   plan.points = 128;
   plan.cycles_a = 7;
   plan.cycles_b = 5;
-  plan.half_x = plan.half_y = 0.14F;
+  plan.half_x = plan.half_y = 0.14;
   std::vector<RangeSample> samples(256);
   for (int scan = 0; scan < 2; ++scan) {
     const TimeUs t_us = kEpochUs + 200000 * scan;
