@@ -51,6 +51,16 @@ svg text { font-family: "Inter", "Segoe UI", "Helvetica Neue", Arial, sans-serif
 .good { color: #1c7c3c; font-weight: 600; }
 .partly { color: #9a5b00; font-weight: 600; }
 .bad { color: #c01028; font-weight: 600; }
+@media (max-width: 760px) {
+  main { padding: 24px 10px; }
+  section { padding: 16px 14px; }
+  dl { grid-template-columns: 1fr; }
+  dt:not(:first-child) { margin-top: 6px; }
+  figure { overflow-x: auto; }
+  figure svg, figure img { width: 720px; max-width: none; }
+  .runs figure, .seen figure { overflow: visible; }
+  .runs figure svg, .runs figure img, .seen figure img { width: 100%; }
+}
 @media (prefers-color-scheme: dark) {
   :root { --page: #0f1319; --card: #181d25; --text: #e3e8ef; --soft: #b8c1ce; --faint: #9aa5b4; --line: #2c333e; --link: #7fb0f5; }
   figure svg { filter: invert(0.9) hue-rotate(180deg); }
