@@ -128,7 +128,8 @@ void add_command_command(CLI::App& app) {
   subcommand->add_option("NAME", options->name, "of the dictionary; alone: shows its items");
   subcommand->add_option("ITEM=VALUE", options->arguments, "its items; elements are separated by commas, choices may be given by name");
   subcommand->add_flag("--list", options->list, "list the commands");
-  subcommand->add_option("--to", options->to, "udp://HOST:PORT or tcp://HOST:PORT: send it, and print what is answered");
+  subcommand->add_option("--to", options->to,
+                         "udp://HOST:PORT, tcp://HOST:PORT, serial:DEVICE or unix:PATH: send it, and print what is answered");
   subcommand->add_option("--out", options->out, "file for the packet");
   subcommand->add_option("--key", options->key,
                          "file with the key that the component asks commands to be signed with (64 hexadecimal digits)");

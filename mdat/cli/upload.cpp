@@ -69,7 +69,9 @@ void add_upload_command(CLI::App& app) {
   CLI::App* subcommand = app.add_subcommand("upload", "load a mission image into a running component, check it there, and make it active");
   subcommand->add_option("IMAGE", options->image, "flight image (mdat mission compile), or a mission file")->required();
   subcommand
-      ->add_option("--to", options->to, "udp://HOST:PORT or tcp://HOST:PORT; what was loaded of the same image before is not sent again")
+      ->add_option(
+          "--to", options->to,
+          "udp://HOST:PORT, tcp://HOST:PORT, serial:DEVICE or unix:PATH; what was loaded of the same image before is not sent again")
       ->required();
   CLI::Option* key = subcommand->add_option(
       "--key", options->key,

@@ -47,9 +47,7 @@ std::string label_of(const Subject& s, const Rule& rule) {
 std::string value_of_field(const Subject& s, const std::string& key) {
   for (const ScenarioField& field : scenario_fields()) {
     if (field.row.key != key) continue;
-    ValueRow row = field.row;
-    if (!row.preset_from.empty()) row.to_si = 1;
-    return value_text(row, field.list != nullptr ? s.scenario->*field.list : std::vector<double>{s.scenario->*field.number});
+    return value_text(field.row, field.list != nullptr ? s.scenario->*field.list : std::vector<double>{s.scenario->*field.number});
   }
   return "";
 }

@@ -133,9 +133,7 @@ void write_scenario(ValueLines& out, const MissionSource& source, const std::str
     std::string place = place_text(source, key);
     if (place == "preset" && !field.row.preset_from.empty()) place = "as sensor." + field.row.preset_from.substr(7);
     const std::vector<double> values = field.list != nullptr ? scenario.*field.list : std::vector<double>{scenario.*field.number};
-    ValueRow row = field.row;
-    if (!row.preset_from.empty()) row.to_si = 1;
-    write_line(out, key, value_text(row, values), row.unit, place, row.meaning);
+    write_line(out, key, value_text(field.row, values), field.row.unit, place, field.row.meaning);
   }
 }
 

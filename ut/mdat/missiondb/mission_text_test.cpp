@@ -59,6 +59,13 @@ TEST(MissionText, InfoOfAScenarioShowsItsOverrides) {
   EXPECT_EQ(words_of(info_text(source, "spin"), "scenario.spin.tilt_deg")[1], "15");
 }
 
+TEST(MissionText, InfoShowsWhatAScenarioTakesFromItsSensorInItsUnit) {
+  VERIFIES("LASSO-GND-002~1");
+  const MissionSource source = load_mission(kShippedMission, {"sensor.common_sigma_deg=0.05", "scenario.spin.common_sigma_deg=0.02"});
+  EXPECT_EQ(words_of(info_text(source, "tumble"), "scenario.tumble.common_sigma_deg")[1], "0.05");
+  EXPECT_EQ(words_of(info_text(source, "spin"), "scenario.spin.common_sigma_deg")[1], "0.02");
+}
+
 TEST(MissionText, CheckWarnsOfAStartThatNoSensorReaches) {
   VERIFIES("LASSO-GND-003~1 LASSO-MOD-134~2");
   const Folder folder;
