@@ -21,8 +21,6 @@ constexpr int kReadings = 100000, kWakeUps = 100;
 constexpr DurationUs kPeriodUs = 200000, kSlotUs = kPeriodUs / 20;
 constexpr DurationUs kCoarsestUs = kSlotUs / 10;
 constexpr std::size_t kMostBytes = 2U << 20;  // as docs/embedding says
-constexpr std::size_t kPaintedBytes = 2 * kTaskStackBytes;
-constexpr std::uint8_t kPaint = 0xA5;
 
 int failures = 0;
 
@@ -104,6 +102,9 @@ void check_times(const Longest& longest) {
 #define LASSO_HAS_FEATURE(feature) 0
 #endif
 #if defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__) && !LASSO_HAS_FEATURE(address_sanitizer)
+constexpr std::size_t kPaintedBytes = 2 * kTaskStackBytes;
+constexpr std::uint8_t kPaint = 0xA5;
+
 // The stack below the caller's: painted, and how much of the paint is gone, counted from its far end.
 [[gnu::noinline]] std::size_t below(bool paint) {
   std::uint8_t area[kPaintedBytes];
