@@ -37,7 +37,7 @@ struct RawScan {
   void add_miss(const Vec3& unit, double time, std::size_t row);
 };
 
-// Whether it is a return whose length is 1 to five decimals, in the file's unit; how many are; and whether they are a tenth of the returns,
+// Whether it is a return whose length is 1 to four decimals, in the file's unit; how many are; and whether they are a tenth of the returns,
 // and 16 at least.
 bool is_direction(const RawRay& ray);
 std::size_t count_directions(const RawScan& scan);
