@@ -18,17 +18,22 @@ struct RawRay {
   bool hit = true;
 };
 
+// What may be misread: where, and what it is.
+struct ScanWarning {
+  std::string place, text;
+};
+
 struct RawScan {
   std::string file;
   bool rows_are_lines = false;
   bool has_times = false;
   bool misses_known = false;
-  double unit_s = 0;                  // of its times, where its header names another than seconds; 0: not said
-  bool seconds_named = false;         // the header names seconds, by which other units are written, too
-  std::size_t unmeasured = 0;         // rows without a measurement, of which no direction is known: they are no rays
-  double first_time = 0;              // of the first row, with or without a measurement
-  Pose T_file_sensor;                 // where the sensor stands in the file's axes, as the file says
-  std::vector<std::string> warnings;  // a line each, with the place
+  double unit_s = 0;           // of its times, where its header names another than seconds; 0: not said
+  bool seconds_named = false;  // the header names seconds, by which other units are written, too
+  std::size_t unmeasured = 0;  // rows without a measurement, of which no direction is known: they are no rays
+  double first_time = 0;       // of the first row, with or without a measurement
+  Pose T_file_sensor;          // where the sensor stands in the file's axes, as the file says
+  std::vector<ScanWarning> warnings;
   std::vector<RawRay> rays;
 
   std::string place(const RawRay& ray) const;  // of its row, for errors

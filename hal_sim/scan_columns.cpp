@@ -100,20 +100,20 @@ void OtherColumns::check() const {
   }
 }
 
-std::vector<std::string> OtherColumns::warnings() const {
-  std::vector<std::string> lines;
+std::vector<ScanWarning> OtherColumns::warnings() const {
+  std::vector<ScanWarning> warnings;
   std::string names;
   for (std::size_t i = 0; i < unknown_.size() && i < kNamed; ++i) names += (i > 0 ? ", " : "") + shown(table_.name(unknown_[i].column));
   if (unknown_.size() > kNamed) names += " and " + std::to_string(unknown_.size() - kNamed) + " more";
   if (!unknown_.empty())
-    lines.push_back(table_.header_place(unknown_.front().column) + ": not known, and not read: column " + names +
-                    "; rename what is one of those that are known: " + kKnown);
+    warnings.push_back({table_.header_place(unknown_.front().column),
+                        "not known, and not read: column " + names + "; rename what is one of those that are known: " + kKnown});
   if (!read_.times && !times_.empty())
-    lines.push_back(
-        table_.header_place(times_.front()) + ": column " + shown(table_.name(times_.front())) +
-        " is not read, and all rays are taken at one time; where it has the time of each ray, name it t_s, t_ms, t_us or t_ns, by "
-        "its unit");
-  return lines;
+    warnings.push_back({table_.header_place(times_.front()),
+                        "column " + shown(table_.name(times_.front())) +
+                            " is not read, and all rays are taken at one time; where it has the time of each ray, name it t_s, t_ms, t_us "
+                            "or t_ns, by its unit"});
+  return warnings;
 }
 
 }  // namespace lasso::sim

@@ -29,8 +29,8 @@ class OtherColumns {
   // directions and greatest ranges are.
   void check() const;
 
-  // A line each: that of the columns that are not known, and that of times whose name is not read.
-  std::vector<std::string> warnings() const;
+  // Of the columns that are not known, and of times whose name is not read.
+  std::vector<ScanWarning> warnings() const;
 
  private:
   struct Kind {

@@ -13,8 +13,9 @@ using test::Folder;
 
 std::vector<std::string> warnings_of(const std::string& text) {
   const Folder folder;
-  std::vector<std::string> lines = read_raw_scan(folder.write("a.csv", text)).warnings;
-  for (std::string& line : lines) line.erase(0, folder.path().string().size() + 1);
+  std::vector<std::string> lines;
+  for (const ScanWarning& warning : read_raw_scan(folder.write("a.csv", text)).warnings)
+    lines.push_back(warning.place.substr(folder.path().string().size() + 1) + ": " + warning.text);
   return lines;
 }
 
