@@ -42,8 +42,8 @@ void CsvTable::read_header() {
   std::string_view line;
   while (lines_.next(line)) {
     std::string_view names = trimmed(line);
-    const bool marked = names.starts_with('#');
-    while (names.starts_with('#')) names.remove_prefix(1);
+    const bool marked = names.starts_with('#') || names.starts_with("//");  // as CloudCompare marks it
+    while (marked && (names.starts_with('#') || names.starts_with('/'))) names.remove_prefix(1);
     separator_ = separator_of(names);
     if (names.empty() || (marked && names.find(separator_) == std::string_view::npos)) continue;
     header_ = line;

@@ -122,7 +122,7 @@ void RawScan::add_miss(const Vec3& unit, double time, std::size_t row) {
 }
 
 bool is_direction(const RawRay& ray) {
-  constexpr double kUnitTolerance = 1e-5;
+  constexpr double kUnitTolerance = 1e-4;
   return ray.hit && std::abs(ray.place.stableNorm() - 1) <= kUnitTolerance;
 }
 

@@ -18,17 +18,22 @@ struct RawRay {
   bool hit = true;
 };
 
+// What may be misread: where, and what it is.
+struct ScanWarning {
+  std::string place, text;
+};
+
 struct RawScan {
   std::string file;
   bool rows_are_lines = false;
   bool has_times = false;
   bool misses_known = false;
-  double unit_s = 0;                  // of its times, where its header names another than seconds; 0: not said
-  bool seconds_named = false;         // the header names seconds, by which other units are written, too
-  std::size_t unmeasured = 0;         // rows without a measurement, of which no direction is known: they are no rays
-  double first_time = 0;              // of the first row, with or without a measurement
-  Pose T_file_sensor;                 // where the sensor stands in the file's axes, as the file says
-  std::vector<std::string> warnings;  // a line each, with the place
+  double unit_s = 0;           // of its times, where its header names another than seconds; 0: not said
+  bool seconds_named = false;  // the header names seconds, by which other units are written, too
+  std::size_t unmeasured = 0;  // rows without a measurement, of which no direction is known: they are no rays
+  double first_time = 0;       // of the first row, with or without a measurement
+  Pose T_file_sensor;          // where the sensor stands in the file's axes, as the file says
+  std::vector<ScanWarning> warnings;
   std::vector<RawRay> rays;
 
   std::string place(const RawRay& ray) const;  // of its row, for errors
@@ -37,7 +42,7 @@ struct RawScan {
   void add_miss(const Vec3& unit, double time, std::size_t row);
 };
 
-// Whether it is a return whose length is 1 to five decimals, in the file's unit; how many are; and whether they are a tenth of the returns,
+// Whether it is a return whose length is 1 to four decimals, in the file's unit; how many are; and whether they are a tenth of the returns,
 // and 16 at least.
 bool is_direction(const RawRay& ray);
 std::size_t count_directions(const RawScan& scan);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -17,24 +18,34 @@ struct ReadColumns {
 
 class OtherColumns {
  public:
+  // Throws ScanFileError of a second column with the name of one that is read.
   OtherColumns(const CsvTable& table, const ReadColumns& read);
 
-  // Takes in the row that stands in the table; of rows with a measurement alone.
-  void look_at_row();
+  // Takes in the row that stands in the table, and how far its point is, in the file's unit; of rows with a measurement alone.
+  void look_at_row(double length);
 
-  // Throws ScanFileError where returns are not known from misses and a column that is not known has two values: it may tell them apart.
+  // Throws ScanFileError where returns are not known from misses and a column that is not known may tell them apart. It has two values, and
+  // is named so, or the points of one value are all 1 long to two decimals, as directions are, or all nearer or farther than the others, as
+  // directions and greatest ranges are.
   void check() const;
 
-  // A line each: that of the columns that are not known, and that of times whose name is not read.
-  std::vector<std::string> warnings() const;
+  // Of the columns that are not known, and of times whose name is not read.
+  std::vector<ScanWarning> warnings() const;
 
  private:
+  struct Kind {
+    std::string value;
+    double nearest = std::numeric_limits<double>::infinity(), farthest = 0;  // of the rows with this value
+  };
   struct Unknown {
     std::size_t column = 0;
-    std::array<std::string, 2> values;  // the first two that differ
-    std::size_t kinds = 0;              // values that differ: 0, 1, 2; 3 for more
+    bool named_so = false;      // by a word for returns or misses
+    std::array<Kind, 2> kinds;  // of the first two values that differ
+    std::size_t values = 0;     // that differ: 0, 1, 2; 3 for more
   };
-  static void count(Unknown& unknown, std::string_view value);
+  bool is_read(std::size_t column) const;
+  static void take(Unknown& unknown, std::string_view value, double length);
+  static bool may_tell_misses(const Unknown& unknown);
 
   const CsvTable& table_;
   ReadColumns read_;

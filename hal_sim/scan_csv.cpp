@@ -85,7 +85,7 @@ class Rows {
   bool seconds_named_ = false;
 };
 
-// A point of unit length is a direction, to five decimals, where many are: no scene has a tenth of its returns so close to a sphere.
+// A point of unit length is a direction, to four decimals, where many are: no scene has a tenth of its returns so close to a sphere.
 // Without a column of returns they may be the rays that missed.
 void check_directions(const RawScan& scan) {
   if (scan.misses_known || !has_directions(scan)) return;
@@ -169,7 +169,7 @@ RawScan read_csv(const std::string& file, std::string_view text) {
       more = table.next();
       const std::size_t rays = scan.rays.size();
       if (more) rows.take(scan);
-      if (scan.rays.size() > rays) others.look_at_row();
+      if (scan.rays.size() > rays) others.look_at_row(scan.rays.back().place.stableNorm());
     } catch (const ScanFileError& fault) {
       faults.add(fault, table.line());
     }

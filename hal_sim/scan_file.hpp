@@ -56,7 +56,7 @@ struct ScanFacts {
   bool viewpoint = false;                // the file says where the sensor stood
   double median_range_m = 0;             // of the returns; 0 where there is none
   std::size_t directions = 0;            // returns of length 1, where these are many (has_directions)
-  std::vector<std::string> warnings;     // of its reader, with the place
+  std::vector<ScanWarning> warnings;     // of its reader
 };
 
 // Scans of any origin, in order.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "mdat/modelc/outward.hpp"
 #include "mdat/modelc/repair.hpp"
@@ -10,8 +11,9 @@
 namespace lasso::mdat {
 namespace {
 
-constexpr double kSheet = 0.5;    // opening over surface: more is a sheet or a dish
-constexpr double kCracks = 0.01;  // of the surface: where less is seen from behind, hardly a ray goes in
+constexpr double kSheet = 0.5;          // opening over surface: more is a sheet or a dish
+constexpr double kCracks = 0.01;        // of the surface: where less is seen from behind, hardly a ray goes in
+constexpr std::size_t kAsked = 20'000;  // triangles: bounds the time, whatever the mesh
 
 void count_edges(const Surface& surface, MeshFaults& faults) {
   for_each_edge(edge_uses(surface), [&](const EdgeUse* first, const EdgeUse* last) {
@@ -41,23 +43,35 @@ std::vector<bool> sheets_of(const Surface& surface, const Components& components
   return sheets;
 }
 
+// What each triangle stands for: its area, or, of many, how many of kAsked equal shares of the area begin in it.
+std::vector<double> weights_of(const Surface& surface) {
+  std::vector<double> weights;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) weights.push_back(twice_area(surface, t).norm());
+  if (weights.size() <= kAsked) return weights;
+  const double share = std::accumulate(weights.begin(), weights.end(), 0.0) / static_cast<double>(kAsked);
+  double before = 0;
+  for (double& weight : weights) {
+    const double after = before + weight;
+    weight = std::floor(after / share) - std::floor(before / share);
+    before = after;
+  }
+  return weights;
+}
+
 // The compiler's own judgement of what light from far away reaches.
-std::size_t count_seen_behind(Surface surface) {
+void look_behind(Surface surface, MeshFaults& faults) {
   CompileReport ignored;
   const Components components = orient_consistently(surface, ignored);
   const std::vector<bool> sheets = sheets_of(surface, components);
+  const std::vector<double> weights = weights_of(surface);
   std::fill(surface.two_sided.begin(), surface.two_sided.end(), std::uint8_t{0});  // what is given twice is no hole
-  turn_outward(surface, components, ignored);
-  std::size_t seen = 0;
-  double seen_area = 0, area = 0;
+  turn_outward(surface, components, ignored, weights);
+  double whole = 0;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    const double of_triangle = twice_area(surface, t).norm();
-    const bool is_seen = surface.two_sided[t] != 0 && !sheets[components.of_triangle[t]];
-    seen += is_seen;
-    seen_area += is_seen ? of_triangle : 0;
-    area += of_triangle;
+    whole += weights[t];
+    if (surface.two_sided[t] != 0) (sheets[components.of_triangle[t]] ? faults.sheets : faults.seen_behind) += weights[t];
   }
-  return seen_area < kCracks * area ? 0 : seen;
+  for (double* share : {&faults.sheets, &faults.seen_behind}) *share = *share < kCracks * whole ? 0 : *share / whole;
 }
 
 // "1 edge belongs", "2 edges belong".
@@ -65,12 +79,20 @@ std::string counted(std::size_t count, const char* one, const char* more) {
   return std::to_string(count) + ' ' + (count == 1 ? one : more);
 }
 
+std::string percent(double share) { return std::to_string(std::lround(100 * share)) + " % of the surface "; }
+
 std::string open_text(const MeshFaults& faults) {
   if (faults.seen_behind == 0) return "";
-  return "open: " + counted(faults.open_edges, "edge belongs", "edges belong") + " to one triangle, and " +
-         counted(faults.seen_behind, "triangle is", "triangles are") +
-         " seen from behind: rays go in where the surface ends; a target that is closed there does not fit: close the mesh; a thin sheet "
-         "or dish may stay as it is";
+  return "open: " + counted(faults.open_edges, "edge belongs", "edges belong") + " to one triangle, and " + percent(faults.seen_behind) +
+         "is seen from behind: rays go in where it ends; a target that is closed there does not fit: close the mesh; a thin sheet, dish, "
+         "tube or nozzle, which is open on the target, too, may stay as it is";
+}
+
+std::string sheets_text(const MeshFaults& faults) {
+  if (faults.sheets == 0) return "";
+  return "sheets: " + percent(faults.sheets) +
+         "is of sheets or dishes, open and seen from both sides: solar panels and antennas may stay so; the shell of a body that is closed "
+         "on the target does not fit: close the mesh";
 }
 
 std::string crowded_text(const MeshFaults& faults) {
@@ -102,13 +124,16 @@ MeshFaults mesh_faults(const Mesh& mesh) {
   faults.degenerate = report.dropped_degenerate;
   faults.duplicates = report.dropped_duplicates;
   count_edges(surface, faults);
-  if (faults.open_edges > 0) faults.seen_behind = count_seen_behind(surface);
+  if (faults.open_edges > 0) look_behind(surface, faults);
   return faults;
 }
 
 std::vector<MeshRemark> mesh_remarks(const MeshFaults& faults) {
-  std::vector<MeshRemark> remarks = {
-      {true, open_text(faults)}, {false, crowded_text(faults)}, {false, winding_text(faults)}, {false, triangles_text(faults)}};
+  std::vector<MeshRemark> remarks = {{true, open_text(faults)},
+                                     {false, sheets_text(faults)},
+                                     {false, crowded_text(faults)},
+                                     {false, winding_text(faults)},
+                                     {false, triangles_text(faults)}};
   std::erase_if(remarks, [](const MeshRemark& remark) { return remark.text.empty(); });
   return remarks;
 }

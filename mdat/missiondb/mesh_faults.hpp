@@ -10,15 +10,17 @@ namespace lasso::mdat {
 
 struct MeshFaults {
   std::size_t open_edges = 0;  // of one triangle
-  // Triangles of open parts, but not of sheets and dishes, whose back rays from outside reach; 0 below a hundredth of the area.
-  std::size_t seen_behind = 0;
+  // Shares of the surface whose back rays from outside reach, 0 below a hundredth: of open parts that enclose space, and of sheets and
+  // dishes.
+  double seen_behind = 0, sheets = 0;
   std::size_t crowded_edges = 0;   // of more than two triangles
   std::size_t opposite_pairs = 0;  // triangles that share an edge of two and run along it the same way
   std::size_t degenerate = 0;      // triangles without area
   std::size_t duplicates = 0;      // triangles given twice, in either winding
 };
 
-// Throws CompileError, as compile_model does of a mesh that cannot be repaired. Open parts cost 128 rays a triangle, others none.
+// Throws CompileError, as compile_model does of a mesh that cannot be repaired. A mesh with open edges costs 128 rays a
+// triangle, of at most 20,000 triangles: of more, so many are asked, spread evenly over the surface.
 MeshFaults mesh_faults(const Mesh& mesh);
 
 // One that follows changes what scans fit the model; without it, nothing follows for poses.

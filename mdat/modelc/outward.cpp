@@ -78,12 +78,14 @@ bool is_inside_out(const ComponentLight& light, bool open) {
 
 }  // namespace
 
-void turn_outward(Surface& surface, const Components& components, CompileReport& report) {
+void turn_outward(Surface& surface, const Components& components, CompileReport& report, const std::vector<double>& asked) {
   EmbreeScene scene;
   scene.add_triangles(surface);
   scene.commit();
   std::vector<Escapes> escapes(surface.triangles.size());
-  parallel_for(escapes.size(), [&](std::size_t t) { escapes[t] = count_escapes(surface, scene, t); });
+  parallel_for(escapes.size(), [&](std::size_t t) {
+    if (asked.empty() || asked[t] > 0) escapes[t] = count_escapes(surface, scene, t);
+  });
   const std::vector<ComponentLight> light = sum_light(surface, components, escapes);
   std::vector<std::uint8_t> flip(light.size()), sheet(light.size()), any_two_sided(light.size(), 0);
   for (std::size_t c = 0; c < light.size(); ++c) {

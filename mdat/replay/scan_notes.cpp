@@ -68,12 +68,19 @@ void add_thinned(const std::vector<ScanFacts>& facts, Notes& notes) {
   notes.push_back(text);
 }
 
+// Each of them with the place where it comes first.
 void add_warnings(const std::vector<ScanFacts>& facts, Notes& notes) {
-  const auto has_warnings = [](const ScanFacts& scan) { return !scan.warnings.empty(); };
-  const auto first = std::find_if(facts.begin(), facts.end(), has_warnings);
-  if (first == facts.end()) return;
-  for (const std::string& warning : first->warnings)
-    notes.push_back("warning: " + warning + " (warned of " + share(count_if(facts, has_warnings), facts.size()) + ")");
+  std::vector<std::string> told;
+  for (const ScanFacts& scan : facts) {
+    for (const sim::ScanWarning& warning : scan.warnings) {
+      if (std::find(told.begin(), told.end(), warning.text) != told.end()) continue;
+      told.push_back(warning.text);
+      const auto is_same = [&](const sim::ScanWarning& other) { return other.text == warning.text; };
+      const auto warned = [&](const ScanFacts& of) { return std::any_of(of.warnings.begin(), of.warnings.end(), is_same); };
+      notes.push_back("warning: " + warning.place + ": " + warning.text + " (warned of " + share(count_if(facts, warned), facts.size()) +
+                      ")");
+    }
+  }
 }
 
 void add_directions(const std::vector<ScanFacts>& facts, Notes& notes) {

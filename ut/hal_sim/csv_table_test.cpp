@@ -21,6 +21,7 @@ TEST(CsvTable, ReadsWhatSpreadsheetsAndScriptsWrite) {
                {"semicolons, decimal commas", "name;a;b\none;1,5;-2\ntwo;3;40,0\n"},
                {"tabs", "name\ta\tb\none\t1.5\t-2\ntwo\t3\t40\n"},
                {"marked header, remarks", "# made elsewhere\n# name,a,b\none,1.5,-2\n# half way\ntwo,3,40\n"},
+               {"header marked as CloudCompare does", "//name,a,b\none,1.5,-2\ntwo,3,40\n"},
                {"other columns and case", "x,B,Name,A\n7,-2,one,1.5\n,40,two,3\n"},
                {"a comma at the end", "name,a,b,\none,1.5,-2,\ntwo,3,40,\n"},
                {"no line end", "name,a,b\none,1.5,-2\ntwo,3,40"}};

@@ -46,6 +46,20 @@ TEST(TurnOutward, OpenSheetsAndCupsAreSeenFromBothSides) {
   EXPECT_EQ(cup.two_sided_triangles, cup.triangles);
 }
 
+TEST(TurnOutward, WhereNotAllAreAskedTheOthersHaveTheirComponentsAnswer) {
+  VERIFIES("LASSO-MDL-011~1");
+  const Mesh cup = shapes::cylinder(0.5, 1, 16, true, false);
+  for (const double asked : {1.0, 0.0}) {
+    CompileReport report;
+    Surface surface = repair_mesh(cup, 0, report);
+    const Components components = orient_consistently(surface, report);
+    std::vector<double> of_first(surface.triangles.size(), 0);
+    of_first[0] = asked;
+    turn_outward(surface, components, report, of_first);
+    EXPECT_EQ(report.two_sided_triangles, asked > 0 ? report.triangles : 0);
+  }
+}
+
 TEST(TurnOutward, ACrackDoesNotMakeABodyTwoSided) {
   VERIFIES("LASSO-MDL-011~1");
   Mesh mesh = shapes::box({0, 0, 0}, {1, 1, 1});

@@ -85,12 +85,15 @@ TEST(ScanNotes, SayWhatWasLeftOut) {
 TEST(ScanNotes, WarnOfWhatTheReadersWarnOfAndOfDirections) {
   VERIFIES("LASSO-MDT-124~1");
   sim::ScanFacts odd = spanning(0, 1);
-  odd.warnings = {"b.csv:1:9: column"};
+  odd.warnings = {{"b.csv:1:9", "column"}};
   odd.directions = 4;
-  const Notes notes = row_notes({spanning(0, 1), odd, odd});
-  ASSERT_EQ(notes.size(), 2U);
+  sim::ScanFacts other = odd;
+  other.warnings = {{"c.csv:1:9", "column"}, {"c.csv:1:3", "times"}};
+  const Notes notes = row_notes({spanning(0, 1), odd, other});
+  ASSERT_EQ(notes.size(), 3U);
   EXPECT_EQ(notes[0], "warning: b.csv:1:9: column (warned of 2 of 3 scans)");
-  EXPECT_EQ(notes[1].find("warning: 8 of 30 returns have the length 1, as directions have (in 2 of 3 scans)"), 0U) << notes[1];
+  EXPECT_EQ(notes[1], "warning: c.csv:1:3: times (warned of 1 of 3 scans)");
+  EXPECT_EQ(notes[2].find("warning: 8 of 30 returns have the length 1, as directions have (in 2 of 3 scans)"), 0U) << notes[2];
 }
 
 }  // namespace
