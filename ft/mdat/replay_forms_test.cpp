@@ -279,7 +279,7 @@ TEST_F(ReplayForms, TellsOfNoiseThatIsNotAsStated) {
                           {"8.5e-5", nullptr, 1.3, 1.36},
                           {"1.1111111111111112e-4", nullptr, 1, 1.78},
                           {"4e-4", nullptr, 0.28, 6.4},
-                          {"1.1e-3", "note: residuals are ", 0.1, 17.6}};
+                          {"6e-4", "note: residuals are ", 0.185, 9.6}};
   for (const Stated& stated : cases) {
     work.write_mission({{"sigma_k_per_m = 1.1111111111111112e-4", std::string("sigma_k_per_m = ") + stated.sigma_k_per_m}});
     const Answer answer =

@@ -161,8 +161,8 @@ TEST(Stereo, CampaignsFlyFittedErrorsAndRefusePictures) {
   EXPECT_FALSE(std::filesystem::exists(work / "none"));
   for (const char* jobs : {"1", "2"}) {
     const Answer flown = work.mdat(campaign + "--set stereo.model=fitted --jobs " + jobs + " --out by" + jobs);
-    if (is_refused_by_fixed_point(flown)) return;
     ASSERT_EQ(flown.exit_code, 0) << flown.err;
+    if (flown.err.find("than the number type holds") != std::string::npos) return;  // fixed point: of each case
   }
   EXPECT_EQ(work.read("by1/results.csv"), work.read("by2/results.csv"));
   EXPECT_EQ(lines_of(work.read("by1/results.csv")).size(), 5U);

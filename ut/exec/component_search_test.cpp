@@ -239,9 +239,9 @@ TEST(ComponentSearch, APoseThatWasFoundTooLateIsRefusedByItsName) {
   VERIFIES("LASSO-MOD-134~2");
   MissionParameters p = search_parameters();
   p.start_age_max_s = 0;
-  p.search_slice = 100000;  // several frames' work
-  p.search_slice *= p.search_slice / frame_work(p);
-  p.initial_angular_rate_radps = 1e-3 * kRadPerDeg;  // a single scan is enough
+  p.search_slice = 100000;                                                       // several frames' work
+  p.search_slice = std::floor(p.search_slice * p.search_slice / frame_work(p));  // in either number type
+  p.initial_angular_rate_radps = 1e-3 * kRadPerDeg;                              // a single scan is enough
   ComponentScene scene(p, test::uneven_scene());
   scene.begin();
   ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);

@@ -73,7 +73,8 @@ TEST(CommandEncoder, TakesParametersByName) {
   VERIFIES("LASSO-GND-021~2");
   const PacketRow& row = command_row("report_parameter");
   EXPECT_EQ(encode_command(row, {{"parameter", "sensor.sigma_k_per_m"}}, 0), encode_command(row, {{"parameter", "1"}}, 0));
-  for (const nlohmann::json& parameter : nlohmann::json::parse(dictionary_json()).at("parameters")) {
+  const nlohmann::json dictionary = nlohmann::json::parse(dictionary_json());
+  for (const nlohmann::json& parameter : dictionary.at("parameters")) {
     const std::string name = parameter.at("name"), id = parameter.at("id").dump();
     EXPECT_EQ(encode_command(row, {{"parameter", name}}, 0), encode_command(row, {{"parameter", id}}, 0)) << name;
   }
