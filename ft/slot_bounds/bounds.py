@@ -58,12 +58,12 @@ class Bounds:
         return self.mapped[key]
 
     def where(self, function, loop):
-        """The loop of the sources, and its depth. One that would be the same as the loop around it is the deeper one that nearly all of it is
-        in; (None, 0) where most is, and it may be either."""
+        """The loop of the sources, and its depth. Where that would be the same as the loop around it, or one around that, and most of it is in a
+        deeper one, it is that one if nearly all of it is; (None, 0) where it may be either."""
         place = self.place(function, loop)
-        found = place.loop, place.depth
-        inside = place.inside, place.depth + 1
-        if None in (place.inside, loop.parent, place.loop) or self.where(function, loop.parent) not in (found, inside):
+        found, inside = (place.loop, place.depth), (place.inside, place.depth + 1)
+        around = self.where(function, loop.parent) if loop.parent else (None, 0)
+        if None in (place.loop, place.inside, around[0]) or (around[1] < place.depth and around != inside):
             return found
         return inside if place.is_most else (None, 0)
 
