@@ -65,9 +65,9 @@ def tables(code, found, results, bounded, commit):
     measured = results.get('pil', {}).get('commit', 'none')
     parts = [f'Derived at commit {commit}, in instructions; `make pil` measured at commit {measured}.']
     parts += ['### Slots', stage_table(found, stages.SLOTS, results), '### Estimation', stage_table(found, stages.ESTIMATION, results)]
-    for title in ('each of the other 19 slots', 'a scan of the whole target in a track'):
-        stage, first, costs, _ = next(row for row in found['mission'] if row[0].title == title)
-        parts += [f'### What makes up {stage.title}, this mission', makeup_table(code, costs, first, bounded)]
+    for title in stages.SHOWN:
+        _, first, costs, _ = next(row for row in found['mission'] if row[0].title.removeprefix('- ') == title)
+        parts += [f'### What makes up {title}, this mission', makeup_table(code, costs, first, bounded)]
     return '\n\n'.join(parts)
 
 

@@ -16,6 +16,9 @@ class Stage:
 
 
 COMMANDS = ((r'lasso::CommandDispatcher::accept\(', 10),)  # kMaxCommandsPerFrame + kMaxUrgentPerFrame: all of a frame may come in one slot
+# The rows of the slot table, each of which is due once.
+TASKS = ((r'lasso::AcquisitionTask::poll\(', 1), (r'lasso::ImageService::run_slot\(', 1))
+BOUNDARY_TASK = r'lasso::Component::pass_boundary\('
 RIG = r'lasso::bare::Flight::let_world_move\('  # the board's clock stands still there
 ESTIMATE = ('pil', 'float', 'instructions', 'estimate', 'worst')
 BOUNDARY = ('pil', 'float', 'instructions', 'boundary', 'worst')
@@ -24,11 +27,11 @@ SEARCH_STEP, SEARCH_SLICE = ('search-count', 'float', '*', 'step'), ('search-cou
 TRACKED = ('ppc-count', 'instructions', '*', 'max')
 
 SLOTS = [
-    Stage('the slot with the boundary', r'lasso::bare::Flight::tick\(', (RIG,), BOUNDARY, COMMANDS),
-    Stage('each of the other 19 slots', r'lasso::bare::Flight::tick\(', (RIG, r'lasso::Component::pass_boundary\('), POLL, COMMANDS),
+    Stage('the slot with the boundary', r'lasso::bare::Flight::tick\(', (RIG,), BOUNDARY, (*COMMANDS, *TASKS, (BOUNDARY_TASK, 1))),
+    Stage('each of the other 19 slots', r'lasso::bare::Flight::tick\(', (RIG, BOUNDARY_TASK), POLL, (*COMMANDS, *TASKS)),
     Stage('- commands of the ground, taken from the line', r'lasso::LinkPump::receive\(', together=COMMANDS),
     Stage('- one command carried out', r'lasso::CommandDispatcher::accept\('),
-    Stage('- the acquisition: samples of the sensor', r'lasso::AcquisitionTask::poll\('),
+    Stage("- the acquisition of a slot's samples", r'lasso::AcquisitionTask::poll\('),
     Stage('- scrub and images', r'lasso::ImageService::run_slot\('),
     Stage('- the boundary: publish', r'lasso::Component::publish_estimate\('),
     Stage('- the boundary: commands that waited', r'lasso::CommandDispatcher::answer_waiting\(', together=COMMANDS),
@@ -55,6 +58,8 @@ ESTIMATION = [
     Stage('a slice of a search', r'lasso::PoseSearch::advance\(', (), SEARCH_SLICE),
     Stage('- one step of it', r'lasso::PoseSearch::step\(', (), SEARCH_STEP),
 ]
+
+SHOWN = "the acquisition of a slot's samples", 'a scan of the whole target in a track'  # function by function
 
 
 def find(image, pattern):
