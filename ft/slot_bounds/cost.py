@@ -159,7 +159,7 @@ class Costs:
 def longest(graph, steps, first):
     """Of each step that is reached: (instructions of the dearest way to its end, the step before)."""
     ways = {}
-    for at in reversed(ordered(graph, first)):
+    for at in reversed(loops_module.postorder(lambda at: sorted(graph[at]), sorted(first))):
         if at in first:
             ways.setdefault(at, (steps[at].total, None))
         for to in graph[at]:
@@ -167,26 +167,6 @@ def longest(graph, steps, first):
             if to not in ways or ways[to][0] < total:
                 ways[to] = (total, at)
     return ways
-
-
-def ordered(graph, first):
-    """Postorder of a graph without loops."""
-    seen, post = set(), []
-    for root in sorted(first):
-        if root in seen:
-            continue
-        seen.add(root)
-        open_ = [(root, iter(sorted(graph[root])))]
-        while open_:
-            at, rest = open_[-1]
-            following = next((n for n in rest if n not in seen), None)
-            if following is None:
-                post.append(at)
-                open_.pop()
-            else:
-                seen.add(following)
-                open_.append((following, iter(sorted(graph[following]))))
-    return post
 
 
 def collect(end, ways, steps):

@@ -76,3 +76,23 @@ def within(edges, first, parent):
 
 def flat(loops):
     return [one for loop in loops for one in [loop] + flat(loop.inner)]
+
+
+def postorder(successors, roots):
+    """Nodes that the roots lead to, each after those that it leads to but for the ways back. `successors` gives a node's."""
+    seen, post = set(), []
+    for root in roots:
+        if root in seen:
+            continue
+        seen.add(root)
+        open_ = [(root, iter(successors(root)))]
+        while open_:
+            at, rest = open_[-1]
+            following = next((n for n in rest if n not in seen), None)
+            if following is None:
+                post.append(at)
+                open_.pop()
+            else:
+                seen.add(following)
+                open_.append((following, iter(successors(following))))
+    return post

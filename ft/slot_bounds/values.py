@@ -172,14 +172,4 @@ def changes(function, places):
 
 def sequence(function):
     """Blocks, each after those that lead to it but for the ways back (reverse postorder)."""
-    seen, post, open_ = {function.address}, [], [(function.address, iter(function.blocks[function.address].successors))]
-    while open_:
-        at, rest = open_[-1]
-        following = next((n for n in rest if n not in seen), None)
-        if following is None:
-            post.append(at)
-            open_.pop()
-        else:
-            seen.add(following)
-            open_.append((following, iter(function.blocks[following].successors)))
-    return post[::-1]
+    return loops_module.postorder(lambda at: function.blocks[at].successors, [function.address])[::-1]
