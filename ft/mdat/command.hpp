@@ -64,6 +64,8 @@ class Program {
 // True in a build for fixed point, where noise or times of a mission may be more than its numbers hold: then it was refused, which is
 // asked.
 bool is_refused_by_fixed_point(const Answer& answer);
+// The same of a campaign, which tells so of its cases, and goes on.
+bool tells_of_fixed_point(const Answer& answer);
 
 std::string mdat_program();                        // its path
 std::string source_path(const std::string& name);  // of a file in the repository
