@@ -68,14 +68,14 @@ class StartCheckTest : public MastTest {
 };
 
 TEST_F(StartCheckTest, ARightStartIsBelievedOnceTheSearchHasFoundNothingElse) {
-  VERIFIES("LASSO-MOD-184~5 LASSO-MOD-132~1");
+  VERIFIES("LASSO-MOD-184~5 LASSO-MOD-132~1 LASSO-MOD-188~1");
   mission_.parameters.search_slice = 200000;
   start(small_error());
   std::uint32_t k = 0;
   TrackStep step = frame(k);
   for (; step.registration.reason == PoseReason::kUnchecked && k < 100; step = frame(++k)) {
-    ASSERT_EQ(step.after.mode, TrackingMode::kStarting);
-    EXPECT_EQ(step.event, ModeEvent::kPoseInvalid);
+    ASSERT_EQ(step.after.mode, TrackingMode::kVerifying);
+    EXPECT_EQ(step.event, k == 0 ? ModeEvent::kCheck : ModeEvent::kPoseInvalid);
     EXPECT_EQ(step.after.missed, 0) << "none of start.frames is used up";
     EXPECT_EQ(step.after.searches, 1u);
   }
@@ -83,7 +83,7 @@ TEST_F(StartCheckTest, ARightStartIsBelievedOnceTheSearchHasFoundNothingElse) {
   EXPECT_TRUE(step.registration.valid()) << to_string(step.registration.reason);
   EXPECT_EQ(step.event, ModeEvent::kPoseValid);
   EXPECT_EQ(step.after.mode, TrackingMode::kTracking);
-  EXPECT_EQ(step.after.check.stage, Stage::kNone);
+  EXPECT_EQ(step.after.check.stage, Stage::kAwaited);
   EXPECT_NE(step.search.outcome, SearchOutcome::kNone) << "what it found is reported";
   EXPECT_EQ(step.after.filter.accepted, k) << "the track was followed meanwhile";
   EXPECT_LT(error(step.after.filter.T_sensor_target, 0).norm(), 5e-3);
@@ -111,7 +111,7 @@ TEST_F(StartCheckTest, AWrongStartThatItsScanConfirmsIsContradicted) {
   EXPECT_EQ(step.refusal, StartRefusal::kContradicted);
   EXPECT_EQ(step.event, ModeEvent::kExhausted);
   EXPECT_EQ(step.after.mode, TrackingMode::kLost) << "without waiting for start.frames";
-  EXPECT_EQ(step.after.check.stage, Stage::kNone);
+  EXPECT_EQ(step.after.check.stage, Stage::kAwaited);
 }
 
 TEST_F(StartCheckTest, AVerdictInAFrameWhoseScanIsLostRefusesTheStartAndTellsOfTheScan) {
@@ -134,14 +134,17 @@ TEST_F(StartCheckTest, AWrongStartIsContradictedByASearchThatIsRejected) {
 }
 
 TEST_F(StartCheckTest, AHeldStartThatIsContradictedIsNotBelievedEither) {
-  VERIFIES("LASSO-MOD-184~5");
+  VERIFIES("LASSO-MOD-184~5 LASSO-MOD-188~1");
   const Vec3 axis = deceptive_axis();
   start_turned(axis);
   state_.held = true;
-  for (std::uint32_t k = 1; k < 4; ++k) {
+  for (std::uint32_t k = 1; k < 6; ++k) {
     const TrackStep step = frame(k);
-    EXPECT_FALSE(step.registration.valid()) << k;
-    EXPECT_EQ(step.after.mode, TrackingMode::kStarting) << k;
+    const bool begins = k % 2 == 1;
+    EXPECT_EQ(step.registration.reason, begins ? PoseReason::kUnchecked : PoseReason::kContradicted) << k;
+    EXPECT_EQ(step.after.mode, begins ? TrackingMode::kVerifying : TrackingMode::kStarting) << k;
+    EXPECT_EQ(step.event, begins ? ModeEvent::kCheck : ModeEvent::kConfirmAnew) << k;
+    EXPECT_EQ(step.after.missed, begins ? 0 : UINT16_MAX) << "given up where it is not held any more";
   }
 }
 
@@ -157,8 +160,9 @@ TEST_F(StartCheckTest, AStartIsBelievedWhoseCompetitorsExplainTheScanAsWell) {
   half_turn.p = scene_.box.center - rotate(half_turn.q, scene_.box.center);
   ASSERT_EQ(start_at(scene_.at_zero * half_turn, Twist{}, 0, 0), StartRefusal::kNone);
   EXPECT_EQ(frame(0).after.check.stage, Stage::kSearching);
-  EXPECT_EQ(frame(1).after.check.stage, Stage::kAgain);
-  EXPECT_EQ(frame(2, true).after.check.stage, Stage::kAgain) << "without a scan";
+  EXPECT_EQ(frame(1).after.check.stage, Stage::kAwaited);
+  EXPECT_EQ(frame(2, true).after.check.stage, Stage::kAwaited) << "without a scan";
+  EXPECT_EQ(state_.mode, TrackingMode::kVerifying);
   const TrackStep second = frame(3);
   EXPECT_EQ(second.registration.reason, PoseReason::kUnchecked);
   EXPECT_EQ(second.after.check.stage, Stage::kSearching);
@@ -175,7 +179,8 @@ TEST_F(StartCheckTest, TheSecondSearchHasTheLastWordWhereTheFirstIsUndecided) {
   const auto second_word = [&](CheckOutcome verdict) {
     TrackStep step = searching;
     end_check(mission_.parameters, CheckOutcome::kUndecided, step);
-    EXPECT_EQ(step.after.check.stage, Stage::kAgain);
+    EXPECT_EQ(step.after.check.stage, Stage::kAwaited);
+    EXPECT_EQ(step.after.mode, TrackingMode::kVerifying);
     EXPECT_EQ(step.registration.reason, PoseReason::kUnchecked);
     step.after.check.stage = Stage::kSearching;
     end_check(mission_.parameters, verdict, step);
@@ -189,14 +194,17 @@ TEST_F(StartCheckTest, TheSecondSearchHasTheLastWordWhereTheFirstIsUndecided) {
 }
 
 TEST_F(StartCheckTest, AnImplausibleScanEndsACheckThatWaitsForItsSecondSearch) {
-  VERIFIES("LASSO-MOD-184~5 LASSO-MOD-009~1");
+  VERIFIES("LASSO-MOD-184~5 LASSO-MOD-009~1 LASSO-MOD-188~1");
   follow_unchecked();
-  state_.check.stage = Stage::kAgain;
+  ASSERT_EQ(state_.mode, TrackingMode::kVerifying);
+  state_.check.stage = Stage::kAwaited;
   state_.check.undecided = true;
   scene_.at_zero.p += Vec3(0.006, -0.004, 0.007);
   const TrackStep jumped = frame(10);
   EXPECT_EQ(jumped.registration.reason, PoseReason::kImplausible);
-  EXPECT_EQ(jumped.after.check.stage, Stage::kNone);
+  EXPECT_EQ(jumped.event, ModeEvent::kConfirmAnew);
+  EXPECT_EQ(jumped.after.mode, TrackingMode::kStarting);
+  EXPECT_EQ(jumped.after.missed, 1) << "the start's frames count on";
   EXPECT_FALSE(jumped.after.check.undecided);
 }
 
@@ -240,24 +248,25 @@ TEST_F(StartCheckTest, ScansThatAreLostUseUpTheFramesOfAStartOnlyInARow) {
   frame(0);
   std::uint32_t k = 1;
   for (int round = 0; round < 2; ++round) {
-    for (int lost = 0; lost < 4; ++lost) ASSERT_EQ(frame(k++, true).after.mode, TrackingMode::kStarting);
+    for (int lost = 0; lost < 4; ++lost) ASSERT_EQ(frame(k++, true).after.mode, TrackingMode::kVerifying);
     ASSERT_EQ(frame(k++).registration.reason, PoseReason::kUnchecked) << round;
   }
 }
 
 // The search speaks of the pose that was confirmed, not of one that the scans have left for: that has to be confirmed by itself.
 TEST_F(StartCheckTest, ATrackThatItsScansContradictIsConfirmedAndCheckedAnew) {
-  VERIFIES("LASSO-MOD-184~5 LASSO-MOD-009~1");
+  VERIFIES("LASSO-MOD-184~5 LASSO-MOD-009~1 LASSO-MOD-188~1");
   follow_unchecked();
   std::uint32_t k = 10;
   mission_.parameters.search_slice = 2e7;
   scene_.at_zero.p += Vec3(0.006, -0.004, 0.007);
   const TrackStep jumped = frame(k++);
   EXPECT_EQ(jumped.registration.reason, PoseReason::kImplausible);
-  EXPECT_EQ(jumped.after.check.stage, Stage::kNone);
+  EXPECT_EQ(jumped.after.mode, TrackingMode::kStarting);
   TrackStep anew = frame(k++);
-  for (; anew.registration.reason == PoseReason::kFarFromStart; anew = frame(k++)) EXPECT_EQ(anew.after.check.stage, Stage::kNone);
+  for (; anew.registration.reason == PoseReason::kFarFromStart; anew = frame(k++)) EXPECT_EQ(anew.after.mode, TrackingMode::kStarting);
   EXPECT_EQ(anew.registration.reason, PoseReason::kUnchecked);
+  EXPECT_EQ(anew.after.mode, TrackingMode::kVerifying);
   EXPECT_EQ(anew.after.searches, 2u);
   EXPECT_LT(error(anew.after.check.T_sensor_target, 0).norm(), 5e-3);
   EXPECT_EQ(frame(k).after.mode, TrackingMode::kTracking);
@@ -265,7 +274,7 @@ TEST_F(StartCheckTest, ATrackThatItsScansContradictIsConfirmedAndCheckedAnew) {
 
 // A frame that is not ready at its boundary is dropped whole: the check that it began has no scan, and the next scan begins another.
 TEST_F(StartCheckTest, ACheckWhoseFrameWasDroppedBeginsAnew) {
-  VERIFIES("LASSO-MOD-184~5 LASSO-EXE-003~1");
+  VERIFIES("LASSO-MOD-184~5 LASSO-EXE-003~1 LASSO-MOD-188~1");
   mission_.parameters.search_slice = 1000;
   start(small_error());
   const TrackStep dropped = try_frame(0);
@@ -275,13 +284,26 @@ TEST_F(StartCheckTest, ACheckWhoseFrameWasDroppedBeginsAnew) {
   EXPECT_EQ(begun.after.searches, dropped.after.searches) << "as if it had been the first";
   ++state_.searches;
   const TrackState before = state_;
-  EXPECT_EQ(frame(2).after.check.stage, Stage::kNone) << "another search was begun, of which this is not the scan";
+  const TrackStep gone = frame(2);
+  EXPECT_EQ(gone.after.mode, TrackingMode::kStarting) << "another search was begun, of which this is not the scan";
+  EXPECT_EQ(gone.event, ModeEvent::kConfirmAnew);
   mission_.parameters.search_slice = 2e7;
   EXPECT_EQ(frame(3).registration.reason, PoseReason::kUnchecked);
   EXPECT_EQ(frame(4).after.mode, TrackingMode::kTracking);
   state_ = before;
   ++state_.searches;
-  EXPECT_EQ(frame(2, true).after.check.stage, Stage::kNone);
+  EXPECT_EQ(frame(2, true).after.mode, TrackingMode::kStarting);
+}
+
+// The frame that would begin the check has nothing to search: the next scan is asked.
+TEST_F(StartCheckTest, ACheckWithoutAScanDoesNotBegin) {
+  VERIFIES("LASSO-MOD-188~1");
+  start(small_error());
+  TrackStep step = track_view(0);
+  ASSERT_EQ(step.after.mode, TrackingMode::kVerifying);
+  searcher_->check(mission_, nullptr, *workspace_, step);
+  EXPECT_EQ(step.after.mode, TrackingMode::kStarting);
+  EXPECT_EQ(next_mode(TrackingMode::kStarting, step.event), step.after.mode) << "as the table has it";
 }
 
 // The check of a frame that was dropped has the number that the next search gets.
@@ -303,7 +325,8 @@ TEST_F(StartCheckTest, AnotherStartBeginsItsOwnCheck) {
   start(small_error());
   frame(0);
   start(small_error());
-  EXPECT_EQ(state_.check.stage, Stage::kNone);
+  EXPECT_EQ(state_.mode, TrackingMode::kStarting);
+  EXPECT_EQ(state_.check.stage, Stage::kAwaited);
   EXPECT_EQ(frame(1).after.searches, 2u);
 }
 
@@ -348,6 +371,24 @@ TEST_F(InterruptedTest, AnotherWrongStartInterruptsTheSameTrack) {
   VERIFIES("LASSO-MOD-185~1");
   offer_wrong_start();
   offer_wrong_start();
+  EXPECT_TRUE(state_.interrupts);
+}
+
+// Also one that is checked already: the track before it is the one that is kept.
+TEST_F(InterruptedTest, AStartThatIsCheckedKeepsTheTrackThatItInterrupted) {
+  VERIFIES("LASSO-MOD-185~1 LASSO-MOD-188~1");
+  mission_.parameters.start_check = 1;
+  mission_.parameters.search_slice = 1000;
+  start(small_error());
+  ASSERT_EQ(frame(2).after.mode, TrackingMode::kVerifying);
+  EXPECT_TRUE(state_.interrupts);
+  const TrackState verifying = state_;
+  EXPECT_EQ(frame(3, true).after.mode, TrackingMode::kVerifying);
+  EXPECT_EQ(frame(4, true).event, ModeEvent::kFallBack) << "after start.frames";
+  EXPECT_EQ(state_.mode, TrackingMode::kReacquiring);
+  state_ = verifying;
+  start(small_error());
+  EXPECT_EQ(state_.mode, TrackingMode::kStarting);
   EXPECT_TRUE(state_.interrupts);
 }
 
