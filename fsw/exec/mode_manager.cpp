@@ -119,8 +119,8 @@ void ModeManager::resume_former(TrackStep& step) {
 
 // A start that ends without a track, by its frames or by a check; or the pose that a search found.
 void ModeManager::refuse_in(const TrackStep& step) {
-  const bool starting = track_.mode == TrackingMode::kStarting;
-  const bool given_up = starting && step.event != ModeEvent::kPoseValid && next_mode(track_.mode, step.event) != track_.mode;
+  const bool starting = properties(track_.mode).tries_start;
+  const bool given_up = starting && step.event != ModeEvent::kPoseValid && !properties(next_mode(track_.mode, step.event)).tries_start;
   const bool refused = step.refusal != StartRefusal::kNone;
   if (refused) return refuse_start(starting ? track_.source : InitialPoseSource::kSearch, step.refusal);
   if (given_up) refuse_start(track_.source, StartRefusal::kNotConfirmed);
@@ -141,7 +141,7 @@ void ModeManager::refuse_start(InitialPoseSource source, StartRefusal refusal) {
 }
 
 // At most four at a boundary (a scan's, an image's or a fault's, a command's, a start's), and a packet takes four: there is always room. A
-// fault that makes safe leaves no command.
+// fault that makes safe leaves no command. A jump of the clock takes the place of the scan's.
 void ModeManager::note_change(const ModeChange& change) {
   context_.telemetry.raise<EventId::kModeChanged>(change.from, change.event, change.to);
   invariant(changes_.push_back(change), "more changes of the mode than can wait for a packet");
@@ -178,12 +178,18 @@ void ModeManager::apply_request() {
 void ModeManager::take(ModeEvent event) {
   if (event == ModeEvent::kMakeSafe) context_.interlocks.inhibit_laser();
   if (!has_transition(track_.mode, event)) return;
-  note_change({track_.mode, event, next_mode(track_.mode, event)});
-  change_mode(event, track_);
+  follow_table(event);
   context_.scans.look_at_whole();
   if (event == ModeEvent::kNear || event == ModeEvent::kFar) return;
   context_.scans.drop_plans();
   forget_before_trial();
+}
+
+// Nothing where the table has no such way.
+void ModeManager::follow_table(ModeEvent event) {
+  if (!has_transition(track_.mode, event)) return;
+  note_change({track_.mode, event, next_mode(track_.mode, event)});
+  change_mode(event, track_);
 }
 
 void ModeManager::try_start(InitialPoseSource source) {
@@ -245,7 +251,7 @@ void ModeManager::use_sensor(SensorNumber sensor) {
 
 void ModeManager::follow_jump(DurationUs moved_us) {
   track_.filter.t_us += moved_us;
-  track_.check = StartCheck{};                              // its scan is of another time
+  follow_table(ModeEvent::kConfirmAnew);                    // the scan that a check searches is of another time
   if (properties(track_.mode).searches) ++track_.searches;  // so are those that the search has joined: it begins anew
   former_.t_us += moved_us;
   track_.bearing.t_us += moved_us;
@@ -254,11 +260,11 @@ void ModeManager::follow_jump(DurationUs moved_us) {
 }
 
 void ModeManager::take_over_track(bool kept, bool on_trial) {
-  track_.check = StartCheck{};  // a search of the other image's tables
   forget_before_trial();
   if (kept && on_trial) before_trial_ = track_;
   context_.scans.drop_plans();
-  if (!kept) leave_target();
+  if (!kept) return leave_target();
+  follow_table(ModeEvent::kConfirmAnew);  // a check searches the other image's tables
 }
 
 // The mode is its own: a track that was lost is looked for again. In bearing a start is awaited, and nothing leads back to the prediction.
@@ -277,9 +283,7 @@ void ModeManager::leave_target() {
   context_.scans.forget_sensors();
   track_.filter = FilterState{};
   track_.sensor = 0;  // the other image may have fewer
-  if (track_.mode == TrackingMode::kSafe || !has_transition(track_.mode, ModeEvent::kStop)) return;
-  note_change({track_.mode, ModeEvent::kStop, next_mode(track_.mode, ModeEvent::kStop)});
-  change_mode(ModeEvent::kStop, track_);
+  if (track_.mode != TrackingMode::kSafe) follow_table(ModeEvent::kStop);
 }
 
 void ModeManager::report(PoseTelemetry& report) {

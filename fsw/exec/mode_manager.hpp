@@ -42,12 +42,13 @@ class ModeManager {
   // The scan that is handed to the estimate is this sensor's. Errors that track, and interrupted track, have in common with the scans of
   // another one are then errors of their own.
   void use_sensor(SensorNumber sensor);
-  // The clock has jumped by `moved_us`: states keep their age. Offers and checks of another time are forgotten, a search begins anew, and a
-  // start that waits for the boundary is refused as kTooOld.
+  // The clock has jumped by `moved_us`: states keep their age. Offers of another time are forgotten, a search begins anew, a start that is
+  // checked has to be confirmed anew, and one that waits for the boundary is refused as kTooOld.
   void follow_jump(DurationUs moved_us);
 
-  // Another image becomes active. One that keeps the target takes over the track, which is remembered while the image is `on_trial`;
-  // another one starts from nothing, and a start that waits for the boundary, which is of the target before, is refused as kTooOld.
+  // Another image becomes active. One that keeps the target takes over the track, which is remembered while the image is `on_trial`, and of
+  // which a checked start has to be confirmed anew; another one starts from nothing, and a start that waits for the boundary, which is of
+  // the target before, is refused as kTooOld.
   void take_over_track(bool kept, bool on_trial);
   // The image before becomes active again: the track goes on from what was remembered (remembers_track()), but not from mode bearing. What
   // was commanded since has made it forgotten.
@@ -82,6 +83,7 @@ class ModeManager {
   void request_start(InitialPoseSource source);
   void drop_request();
   void take(ModeEvent event);
+  void follow_table(ModeEvent event);
   void try_start(InitialPoseSource source);
   void try_sources();
   InitialPoseSource next_source() const;

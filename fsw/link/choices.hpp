@@ -50,6 +50,7 @@ inline constexpr Choice kTrackingModes[] = {
   {"searching", "the pose is looked for at any attitude"},
   {"short_range", "close by: parts of the target in turn"},
   {"safe", "no scans, the laser inhibited; left by command alone", "look at the faults in telemetry; then command standby"},
+  {"verifying", "a scan confirmed the start, and is searched for a better pose"},
 };
 inline constexpr Choice kModeEvents[] = {
   {"start", "a pose to start from is given, or the next source's turn has come"},
@@ -67,6 +68,8 @@ inline constexpr Choice kModeEvents[] = {
   {"far", "a scan gave a valid pose, beyond short_range.leave_m, or commanded to leave the parts"},
   {"make_safe", "commanded, or the answer to a fault", "look at the faults in telemetry"},
   {"fall_back", "a start that interrupted a track is given up: the track is looked for again", "see start_refused"},
+  {"check", "a scan confirms a start that is to be checked (start.check)"},
+  {"confirm_anew", "the check of a start ends without an answer: a scan has to confirm the start again"},
 };
 inline constexpr Choice kStartSources[] = {
   {"none", "no source"},

@@ -17,11 +17,23 @@ constexpr ModeTransition kTransitions[] = {
   {M::kStarting,    E::kSeek,           M::kBearing,     "commanded"},
   {M::kStarting,    E::kSearch,         M::kSearching,   "commanded"},
   {M::kStarting,    E::kPoseValid,      M::kTracking,    "a scan confirms the start"},
+  {M::kStarting,    E::kCheck,          M::kVerifying,   "a scan confirms the start, and is searched for a better pose"},
   {M::kStarting,    E::kPoseInvalid,    M::kStarting,    "the next scan tries again"},
   {M::kStarting,    E::kExhausted,      M::kLost,        "no scan confirmed the start"},
   {M::kStarting,    E::kRecover,        M::kBearing,     "no scan confirmed the start: its direction at least, then a search if it is the next source"},
   {M::kStarting,    E::kFallBack,       M::kReacquiring, "no scan confirmed the start: the track that it interrupted is looked for again"},
   {M::kStarting,    E::kMakeSafe,      M::kSafe,        "commanded, or the answer to a fault"},
+  {M::kVerifying,   E::kStart,          M::kStarting,    "another pose to start from"},
+  {M::kVerifying,   E::kStop,           M::kStandby,     "commanded, or the image that takes over cannot go on with the track"},
+  {M::kVerifying,   E::kSeek,           M::kBearing,     "commanded"},
+  {M::kVerifying,   E::kSearch,         M::kSearching,   "commanded"},
+  {M::kVerifying,   E::kPoseValid,      M::kTracking,    "no search found a better pose"},
+  {M::kVerifying,   E::kPoseInvalid,    M::kVerifying,   "the search is at work, another scan is to be searched, or the scan gave no pose"},
+  {M::kVerifying,   E::kConfirmAnew,    M::kStarting,    "the check ends without an answer: a scan has to confirm the start again"},
+  {M::kVerifying,   E::kExhausted,      M::kLost,        "a search found a better pose, or too many scans gave no pose"},
+  {M::kVerifying,   E::kRecover,        M::kBearing,     "a search found a better pose, or too many scans gave no pose: its direction at least, then a search if it is the next source"},
+  {M::kVerifying,   E::kFallBack,       M::kReacquiring, "a search found a better pose, or too many scans gave no pose: the track that the start interrupted is looked for again"},
+  {M::kVerifying,   E::kMakeSafe,       M::kSafe,        "commanded, or the answer to a fault"},
   {M::kTracking,    E::kStart,          M::kStarting,    "another pose to start from"},
   {M::kTracking,    E::kStop,           M::kStandby,     "commanded, or the image that takes over cannot go on with the track"},
   {M::kTracking,    E::kSeek,           M::kBearing,     "commanded, or a fault that leaves no prediction"},
@@ -87,17 +99,18 @@ constexpr ModeTransition kTransitions[] = {
 };
 
 constexpr ModeProperties kProperties[] = {
-  //                scans full   search lost   wide   conf.  take   parts  await
-  {M::kStandby,     false, false, false, false, false, false, false, false, false, "standby", "no scans, no poses"},
-  {M::kStarting,    true,  false, false, false, true,  true,  true,  false, false, "starting", "a pose was given; a scan has to confirm it"},
-  {M::kTracking,    true,  false, false, false, false, false, false, false, false, "tracking", "the last scan gave a valid pose"},
-  {M::kCoasting,    true,  false, false, false, false, false, true,  false, false, "coasting", "the last scan gave none: the filter predicts"},
-  {M::kLost,        false, false, false, true,  false, false, false, false, true,  "lost", "no scans; every frame says so"},
-  {M::kBearing,     true,  true,  false, false, false, false, false, false, true,  "bearing", "full-field scans for direction and range"},
-  {M::kReacquiring, true,  false, false, false, true,  true,  true,  false, false, "reacquiring", "wide starts near the prediction"},
-  {M::kSearching,   true,  false, true,  false, false, false, false, false, false, "searching", "the pose is looked for at any attitude"},
-  {M::kShortRange,  true,  false, false, false, false, false, false, true,  false, "short_range", "close by: parts of the target in turn"},
-  {M::kSafe,        false, false, false, true,  false, false, false, false, false, "safe", "no scans, the laser inhibited; left by command alone"},
+  //                scans full   search lost   wide   conf.  take   parts  await  tries
+  {M::kStandby,     false, false, false, false, false, false, false, false, false, false, "standby", "no scans, no poses"},
+  {M::kStarting,    true,  false, false, false, true,  true,  true,  false, false, true,  "starting", "a pose was given; a scan has to confirm it"},
+  {M::kTracking,    true,  false, false, false, false, false, false, false, false, false, "tracking", "the last scan gave a valid pose"},
+  {M::kCoasting,    true,  false, false, false, false, false, true,  false, false, false, "coasting", "the last scan gave none: the filter predicts"},
+  {M::kLost,        false, false, false, true,  false, false, false, false, true,  false, "lost", "no scans; every frame says so"},
+  {M::kBearing,     true,  true,  false, false, false, false, false, false, true,  false, "bearing", "full-field scans for direction and range"},
+  {M::kReacquiring, true,  false, false, false, true,  true,  true,  false, false, false, "reacquiring", "wide starts near the prediction"},
+  {M::kSearching,   true,  false, true,  false, false, false, false, false, false, false, "searching", "the pose is looked for at any attitude"},
+  {M::kShortRange,  true,  false, false, false, false, false, false, true,  false, false, "short_range", "close by: parts of the target in turn"},
+  {M::kSafe,        false, false, false, true,  false, false, false, false, false, false, "safe", "no scans, the laser inhibited; left by command alone"},
+  {M::kVerifying,   true,  false, false, false, false, false, true,  false, false, true,  "verifying", "a scan confirmed the start, and is searched for a better pose"},
 };
 
 constexpr ModeEventProperties kEvents[] = {
@@ -116,6 +129,8 @@ constexpr ModeEventProperties kEvents[] = {
   {E::kFar, true, "far"},
   {E::kMakeSafe, true, "make_safe"},
   {E::kFallBack, false, "fall_back"},
+  {E::kCheck, false, "check"},
+  {E::kConfirmAnew, false, "confirm_anew"},
 };
 // clang-format on
 

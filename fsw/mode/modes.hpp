@@ -18,6 +18,7 @@ enum class TrackingMode : std::uint8_t {
   kSearching = 7,    // its pose is looked for without any prior attitude
   kShortRange = 8,   // close by: the last scan gave a valid pose, and the next ones look at parts of the target in turn
   kSafe = 9,         // after a fault, or commanded: no scans, no start is taken; every frame says what was known last
+  kVerifying = 10,   // a scan has confirmed the start, and is searched for a better pose before the start is believed
 };
 
 enum class ModeEvent : std::uint8_t {
@@ -36,6 +37,8 @@ enum class ModeEvent : std::uint8_t {
   kFar = 12,            // a scan gave a valid pose, beyond short_range.leave_m; or commanded to leave the parts
   kMakeSafe = 13,       // commanded, or the answer to a fault
   kFallBack = 14,       // a start that interrupted a track is given up
+  kCheck = 15,          // a scan confirms a start that is to be checked (start.check)
+  kConfirmAnew = 16,    // the check of a start ends without an answer: a scan has to confirm the start again
 };
 
 struct ModeTransition {
@@ -57,6 +60,7 @@ struct ModeProperties {
   bool takes_up;      // a valid pose has to pass by tracking.hysteresis
   bool by_parts;      // scans look at a part of the target each, where there is one to look at
   bool awaits_start;  // a pose to start from is taken from the next source by itself, in the mission's order
+  bool tries_start;   // a start is not yet believed, and is given up once its frames are used up
   const char* name;
   const char* meaning;
 };
@@ -78,7 +82,7 @@ struct ModeChange {
 enum class ModeRefusal : std::uint8_t {
   kNone = 0,
   kNotBegun = 1,      // the component has not begun
-  kNotByCommand = 2,  // scans lead there: coasting, lost; starting needs a pose (offer_start)
+  kNotByCommand = 2,  // scans lead there: coasting, lost, verifying; starting needs a pose (offer_start)
   kNotFromHere = 3,   // the table has no such way out of the present mode
   kNoPrediction = 4,  // nothing was tracked, so there is no place to look near
 };

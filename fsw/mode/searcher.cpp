@@ -106,10 +106,10 @@ CheckOutcome Searcher::outcome_of(const Mission& mission, const Pose& T_sensor_t
 
 void Searcher::check(const Mission& mission, const RangeImage* scan, Workspace& workspace, TrackStep& step) {
   const MissionParameters& p = mission.parameters;
-  StartCheck& check = step.after.check;
+  const StartCheck& check = step.after.check;
   const bool at_work = checks_ && number_ == step.after.searches && taken_us_ == check.t_us;
   if (!at_work) {
-    if (!takes_check(mission, scan, workspace, step.after)) check = StartCheck{};
+    if (!takes_check(mission, scan, workspace, step.after)) confirm_anew(step);
     return;
   }
   if (!search_.advance(mission, workspace, frame_work(p) / kCheckPart)) return;

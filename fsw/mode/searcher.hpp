@@ -30,7 +30,8 @@ class Searcher {
 
   // One frame of a check (state.check of `step`, which track_scan or track_without_scan gave). The frame that says so gives its scan; from
   // the next one on half of frame_work is done on it in each. The search suspects the pose (PoseSearch::suspect), and end_check is told
-  // what it makes of it. A check whose scan is gone (its frame came too late) is forgotten: the next scan begins another.
+  // what it makes of it. A check whose scan is gone (its frame came too late) ends without an answer (confirm_anew): the next scan that
+  // confirms the start begins another.
   void check(const Mission& mission, const RangeImage* scan, Workspace& workspace, TrackStep& step);
 
  private:

@@ -60,19 +60,18 @@ double raised(double least, double by) { return least + by < 1 ? least + by : 1;
 double agreement_to_begin(double least, double by) { return least + clamp(by, 0.0, 0.5 * (1 - least)); }
 
 // A registration that is valid by itself: do its shares let this mode take it, and in a start the prediction?
-PoseReason confirm(const MissionParameters& p, const ModeProperties& mode, bool starts, const FilterState& filter,
-                   const Registration& registration) {
+PoseReason confirm(const MissionParameters& p, const ModeProperties& mode, const FilterState& filter, const Registration& registration) {
   if (!mode.takes_up) return PoseReason::kValid;
   if (!(registration.inlier_share >= raised(p.inlier_share_min, p.hysteresis))) return PoseReason::kLowInlierShare;
   if (!(registration.agreement >= agreement_to_begin(p.agreement_min, p.hysteresis))) return PoseReason::kModelMismatch;
-  if (!starts) return PoseReason::kValid;
+  if (!mode.confirms) return PoseReason::kValid;
   if (!(registration.inlier_share >= p.start_inlier_share_min)) return PoseReason::kLowInlierShare;
   return far_from(filter, registration, kStartGate) ? PoseReason::kFarFromStart : PoseReason::kValid;
 }
 
 // A start by search has been compared with all other poses, and one whose attitude is known excludes them.
 bool is_checked(const MissionParameters& p, const TrackState& state) {
-  return p.start_check > 0.5 && state.mode == TrackingMode::kStarting && state.source != InitialPoseSource::kSearch && state.rough;
+  return p.start_check > 0.5 && properties(state.mode).tries_start && state.source != InitialPoseSource::kSearch && state.rough;
 }
 
 // By the sensor's axis about which it is known worst.
@@ -85,12 +84,13 @@ void await_check(TrackStep& step) {
   TrackState& state = step.after;
   Registration& registration = step.registration;
   registration.reason = PoseReason::kUnchecked;
+  step.event = has_transition(state.mode, ModeEvent::kCheck) ? ModeEvent::kCheck : ModeEvent::kPoseInvalid;
+  change_mode(step.event, state);
   if (state.check.stage != StartCheck::Stage::kSearching) {
     state.check = {StartCheck::Stage::kSearching, state.check.undecided, registration.t_us, registration.T_sensor_target};
     ++state.searches;
   }
   state.missed = 0;
-  step.event = ModeEvent::kPoseInvalid;
 }
 
 // Joins a valid registration to `filter`, which is predicted to its time: kValid, or why the pose is not to be believed after all. A wrong
@@ -112,7 +112,7 @@ void predict_or_hold(const MissionParameters& p, TimeUs t_us, FilterState& filte
 }
 
 double frames_of(const MissionParameters& p, TrackingMode mode) {
-  if (mode == TrackingMode::kStarting) return p.start_frames;
+  if (properties(mode).tries_start) return p.start_frames;
   if (mode == TrackingMode::kSearching) return p.search_frames;
   return mode == TrackingMode::kReacquiring ? p.reacquire_frames : p.coast_frames;
 }
@@ -132,7 +132,7 @@ ModeEvent event_of_valid(const MissionParameters& p, const TrackState& state) {
 
 // Where no scan confirms a start, a search is a source that is left, unless the start is its own; its turn comes in bearing.
 bool leaves_search(const MissionParameters& p, const TrackState& state) {
-  return state.mode == TrackingMode::kStarting && state.source != InitialPoseSource::kSearch && is_in_order(p, InitialPoseSource::kSearch);
+  return properties(state.mode).tries_start && state.source != InitialPoseSource::kSearch && is_in_order(p, InitialPoseSource::kSearch);
 }
 
 ModeEvent event_of(const MissionParameters& p, const TrackState& state, bool valid) {
@@ -145,12 +145,11 @@ ModeEvent event_of(const MissionParameters& p, const TrackState& state, bool val
 // Joins the step's registration to its filter if it is valid, and changes the mode accordingly.
 void take(const MissionParameters& p, const ModeProperties& mode, TrackStep& step) {
   Registration& registration = step.registration;
-  const bool starts = mode.confirms && step.after.check.stage == StartCheck::Stage::kNone;
-  if (registration.valid()) registration.reason = join(p, starts, registration, step.after.filter);
-  if (registration.reason == PoseReason::kImplausible) step.after.check = StartCheck{};  // what is followed is not what is checked
+  if (registration.valid()) registration.reason = join(p, mode.confirms, registration, step.after.filter);
   const bool awaits = is_checked(p, step.after) && step.after.check.stage != StartCheck::Stage::kPassed;
   if (registration.valid() && awaits) return await_check(step);
   count_and_change(p, registration.valid(), step);
+  if (registration.reason == PoseReason::kImplausible) confirm_anew(step);  // what is followed is not what is checked
 }
 
 Registration not_registered(PoseReason reason, std::uint32_t scan_id, const FilterState& filter) {
@@ -179,8 +178,8 @@ Mat6 likely_covariance(const FilterState& predicted) {
 
 // A track; a further start, the one that the first interrupted.
 bool would_interrupt(const TrackState& state) {
-  if (state.mode == TrackingMode::kStarting) return state.interrupts;
   const ModeProperties& mode = properties(state.mode);
+  if (mode.tries_start) return state.interrupts;
   return mode.scans && !mode.full_field && !mode.searches && state.filter.initialised;
 }
 
@@ -189,8 +188,10 @@ bool would_interrupt(const TrackState& state) {
 void change_mode(ModeEvent event, TrackState& state) {
   const TrackingMode next = next_mode(state.mode, event);
   if (next == state.mode) return;
+  const bool same_start = properties(state.mode).tries_start && properties(next).tries_start;
   state.mode = next;
   state.check = StartCheck{};
+  if (same_start) return;
   state.interrupts = false;
   if (next != TrackingMode::kCoasting) state.missed = 0;
   if (properties(next).confirms) state.range_awaited = false;  // where the mode was is of no account to the track that is found
@@ -218,7 +219,6 @@ StartRefusal start_track(const Mission& mission, InitialPoseSource source, const
   change_mode(ModeEvent::kStart, state);
   state.interrupts = interrupts;
   state.missed = 0;
-  state.check = StartCheck{};
   state.rough = is_attitude_rough(state.filter);
   state.source = source;
   return StartRefusal::kNone;
@@ -231,12 +231,11 @@ TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeIm
   const MissionParameters& p = mission.parameters;
   const ModeProperties& mode = properties(before.mode);
   predict_or_hold(p, scan.reference_time_us(), filter);
-  const bool starts = mode.confirms && before.check.stage == StartCheck::Stage::kNone;
-  const bool wide = ((mode.wide_start && starts) || is_rough(mission, filter)) && p.wide_start > 0.5;
+  const bool wide = (mode.wide_start || is_rough(mission, filter)) && p.wide_start > 0.5;
   Registration& registration = step.registration;
   registration = estimator.estimate(
       mission, scan, StartPoint{filter.T_sensor_target, filter.rates, wide, rate_sigma(mission.radius_m, filter), false, true});
-  if (registration.valid()) registration.reason = confirm(p, mode, starts, filter, registration);
+  if (registration.valid()) registration.reason = confirm(p, mode, filter, registration);
   take(p, mode, step);
   return step;
 }
@@ -245,19 +244,26 @@ void end_check(const MissionParameters& p, CheckOutcome verdict, TrackStep& step
   TrackState& state = step.after;
   Registration& registration = step.registration;
   const bool again = verdict == CheckOutcome::kUndecided && !state.check.undecided;
-  state.check = StartCheck{};
   if (verdict == CheckOutcome::kContradicted) {
     if (registration.reason == PoseReason::kUnchecked) registration.reason = PoseReason::kContradicted;
     step.refusal = StartRefusal::kContradicted;
     state.missed = UINT16_MAX;
-    return count_and_change(p, false, step);
+    count_and_change(p, false, step);
+    return confirm_anew(step);  // where the mode is held
   }
-  state.check.stage = again ? StartCheck::Stage::kAgain : StartCheck::Stage::kPassed;
+  state.check = StartCheck{};
+  state.check.stage = again ? StartCheck::Stage::kAwaited : StartCheck::Stage::kPassed;
   state.check.undecided = again;
   if (again) return;
   if (registration.reason != PoseReason::kUnchecked) return;
   registration.reason = PoseReason::kValid;
   count_and_change(p, true, step);
+}
+
+void confirm_anew(TrackStep& step) {
+  if (!has_transition(step.after.mode, ModeEvent::kConfirmAnew)) return;
+  step.event = ModeEvent::kConfirmAnew;
+  change_mode(step.event, step.after);
 }
 
 TrackStep track_part(const Mission& mission, const Parts& parts, PartNumber part, Estimator& estimator, const RangeImage& scan,

@@ -22,13 +22,13 @@
 
 namespace lasso {
 
-// Of a start that a scan has confirmed (start.check): is there another pose, that explains this scan better? The track is followed
-// meanwhile. Where the search of the first scan contradicts nothing, but does not accept the start's pose either, a second scan is
-// searched: kAgain, until there is one. kPassed: a search accepts the start's pose, or two contradict nothing and accept nothing (a
-// symmetric target, few returns). The next valid pose is then believed.
+// How far the mode verifying has come with a start that a scan has confirmed (start.check): is there another pose, that explains this scan
+// better? The track is followed meanwhile. Where the search of the first scan contradicts nothing, but does not accept the start's pose
+// either, a second scan is searched: kAwaited, until there is one. kPassed: a search accepts the start's pose, or two contradict nothing
+// and accept nothing (a symmetric target, few returns). The next valid pose is then believed.
 struct StartCheck {
-  enum class Stage : std::uint8_t { kNone, kSearching, kAgain, kPassed };
-  Stage stage = Stage::kNone;
+  enum class Stage : std::uint8_t { kAwaited, kSearching, kPassed };
+  Stage stage = Stage::kAwaited;
   bool undecided = false;  // the first search
   TimeUs t_us = 0;         // of the scan
   Pose T_sensor_target;    // in it
@@ -45,7 +45,7 @@ struct TrackState {
   bool held = false;         // no mode ends because its frames are used up
   InitialPoseSource source = InitialPoseSource::kNone;  // of the present track's start
   bool rough = false;       // its attitude was stated no better than kKnownAttitude_rad: other poses may lie within it
-  StartCheck check;         // of that start, in mode starting
+  StartCheck check;         // of that start, in mode verifying
   bool interrupts = false;  // a start: the track that it interrupted is kept by whoever keeps this state
   FilterState filter;
   SensorNumber sensor = 0;  // of the last scan: whose common errors the filter carries
@@ -69,9 +69,9 @@ struct TrackStep {
   ModeEvent event = ModeEvent::kStart;         // of the scan; says nothing of a frame without one
 };
 
-// Takes the state along the table. What belongs to the mode that ends is forgotten: its count of frames; of a start, its check and the
-// track that it interrupted; for a bearing or a search, the filter; for a bearing, the bearing before; for parts, what was remembered of
-// them. After kFallBack the filter is still that of the start that was given up.
+// Takes the state along the table. What belongs to the mode that ends is forgotten: the check; its count of frames and the track that a
+// start interrupted, unless both modes try the same start; for a bearing or a search, the filter; for a bearing, the bearing before; for
+// parts, what was remembered of them. After kFallBack the filter is still that of the start that was given up.
 void change_mode(ModeEvent event, TrackState& state);
 
 // Takes up a track at t_us: kStarting. Where it interrupts a track, and no scan confirms it, the event is kFallBack. Refused as start_from
@@ -80,10 +80,10 @@ StartRefusal start_track(const Mission& mission, InitialPoseSource source, const
 
 // One scan: predict, register, join to the filter, next mode. In a mode that confirms, a valid registration has to agree with the
 // prediction (kFarFromStart), and starts the filter anew, since the prediction may be far off; so does one that the filter
-// cannot take. Where start.check is set, a start of another source than search is then checked (end_check): the scans that it takes are
-// kUnchecked, but join the filter. One that the prediction of a filter with 5 scans excludes (tracking.innovation_max) is kImplausible and
-// joins nothing; it ends a check, and the start has to be confirmed anew. A prediction less certain than the registration's gate is a rough
-// start. Bounds: as Estimator::estimate.
+// cannot take. Where start.check is set, a start of another source than search is then checked (kVerifying, end_check): the scans that it
+// takes are kUnchecked, but join the filter. One that the prediction of a filter with 5 scans excludes (tracking.innovation_max) is
+// kImplausible and joins nothing; it ends a check, and the start has to be confirmed anew. A prediction less certain than the
+// registration's gate is a rough start. Bounds: as Estimator::estimate.
 TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeImage& scan, const TrackState& before);
 
 // The same with a scan that was planned to look at a part (`part` != kWhole): it is compared with the other parts' before it joins.
@@ -101,6 +101,9 @@ void aim_next(const Mission& mission, Estimator& estimator, const TrackStep& ste
 // The word of one search. kContradicted: the start is refused (kContradicted), as if its frames were used up. kUndecided: another scan is
 // searched, once: of a symmetric target no search is sure. Otherwise this scan confirms it if it is kUnchecked, or the next valid one does.
 void end_check(const MissionParameters& parameters, CheckOutcome verdict, TrackStep& step);
+
+// The check ends without an answer: kConfirmAnew. Nothing in other modes than verifying.
+void confirm_anew(TrackStep& step);
 
 // Counts a frame with or without a valid pose, and takes the step along the table.
 void count_and_change(const MissionParameters& parameters, bool valid, TrackStep& step);

@@ -18,10 +18,10 @@ const char* scans_of(const ModeProperties& mode) {
 }
 
 void print_modes(std::ostream& out) {
-  out << "| mode | | scans | confirms | takes up | awaits a start |\n| --- | --- | --- | --- | --- | --- |\n";
+  out << "| mode | | scans | tries a start | confirms | takes up | awaits a start |\n| --- | --- | --- | --- | --- | --- | --- |\n";
   for (const ModeProperties& mode : mode_properties()) {
-    out << "| " << mode.name << " | " << mode.meaning << " | " << scans_of(mode) << " | " << yes(mode.confirms) << " | "
-        << yes(mode.takes_up) << " | " << yes(mode.awaits_start) << " |\n";
+    out << "| " << mode.name << " | " << mode.meaning << " | " << scans_of(mode) << " | " << yes(mode.tries_start) << " | "
+        << yes(mode.confirms) << " | " << yes(mode.takes_up) << " | " << yes(mode.awaits_start) << " |\n";
   }
 }
 
@@ -39,10 +39,9 @@ Printed by `mdat modes` from the table that the component executes (`fsw/mode/mo
 
 The columns of the first table:
 - **scans**: where the sensor scans. *Aimed* is around the predicted target. With a *wide start* the registration may begin far off.
+- **tries a start**: a start is not yet believed. Its source, and the track that it interrupted, are remembered.
 - **confirms**: a valid pose confirms the start or the prediction, and starts the filter anew. It has to explain `start.inlier_share_min` of the returns, and
-  to agree with the prediction within 25 squared sigmas. In starting, a pose from another source than search is checked as well, where `start.check` is set and the
-  attitude of the start is stated no better than to 3° (1 sigma): its scan is searched for a better pose. Poses are `unchecked` until the search ends. Where it
-  neither accepts the pose nor contradicts it, another scan is searched, once.
+  to agree with the prediction within 25 squared sigmas.
 - **takes up**: the share of returns that a valid pose explains has to exceed the limit of tracking by `tracking.hysteresis`. So has its agreement, but by no
   more than half of the way from that limit to 1.
 - **awaits a start**: the next pose to start from that has not been tried is taken, in the mission's order `start.first` to `start.fifth`. A search is tried in
@@ -52,8 +51,14 @@ The columns of the first table:
 
 constexpr char kEvents[] = R"(Events of the second table:
 - `exhausted` and `recover` come when more frames in a row than the mode allows gave no valid pose, and the mode is not held. `tracking.recover` says which of
-  the two. The frames allowed are `start.frames` in starting, `search.frames` in searching, `tracking.reacquire_frames` in reacquiring and
+  the two. The frames allowed are `start.frames` in starting and verifying, `search.frames` in searching, `tracking.reacquire_frames` in reacquiring and
   `tracking.coast_frames` in all other modes.
+- `check` comes instead of `pose_valid` where `start.check` is set, the start is no search's, and its attitude is stated no better than to 3° (1 sigma). In
+  verifying the scan that confirmed the start is searched for a better pose. Meanwhile the poses of all scans join the filter, and are `unchecked`. A search
+  that neither accepts the pose nor contradicts it is followed by one of another scan, once. Then the first valid pose is `pose_valid`, that of the frame in which
+  the search ends, too.
+- `confirm_anew` comes where a check ends without an answer: a scan was implausible, the frame that began the search came too late, the clock jumped, or another
+  image became active. It also comes where the search contradicts the start while the mode is held.
 - A start that no scan confirmed, or that its check contradicted, ends with `fall_back` where it interrupted a track. Otherwise it ends with `recover` also
   where the mission's order names a search, unless that search gave the start. The search is then tried in bearing.
 - `near` comes with a valid pose in tracking, when the target's origin is within `short_range.enter_m`. `far` comes with one in short_range, when the origin is

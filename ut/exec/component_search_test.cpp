@@ -99,7 +99,8 @@ TEST(ComponentSearch, AStartThatASearchOfItsScanContradictsIsNeverTracked) {
   Story story;
   story.run(scene, 28);
   story.expect({{M::kStandby, E::kStart, M::kStarting},
-                {M::kStarting, E::kRecover, M::kBearing},
+                {M::kStarting, E::kCheck, M::kVerifying},
+                {M::kVerifying, E::kRecover, M::kBearing},
                 {M::kBearing, E::kSearch, M::kSearching},
                 {M::kSearching, E::kPoseValid, M::kStarting},
                 {M::kStarting, E::kPoseValid, M::kTracking}});
@@ -110,7 +111,7 @@ TEST(ComponentSearch, AStartThatASearchOfItsScanContradictsIsNeverTracked) {
 }
 
 TEST(ComponentSearch, ARightStartIsToldAsUncheckedAndThenTracked) {
-  VERIFIES("LASSO-MOD-184~5");
+  VERIFIES("LASSO-MOD-184~5 LASSO-MOD-188~1");
   MissionParameters p = search_parameters();
   p.start_check = 1;
   p.search_slice = 200000;
@@ -120,9 +121,14 @@ TEST(ComponentSearch, ARightStartIsToldAsUncheckedAndThenTracked) {
             StartRefusal::kNone);
   Story story;
   story.run(scene, 40);
-  story.expect({{M::kStandby, E::kStart, M::kStarting}, {M::kStarting, E::kPoseValid, M::kTracking}});
+  story.expect(
+      {{M::kStandby, E::kStart, M::kStarting}, {M::kStarting, E::kCheck, M::kVerifying}, {M::kVerifying, E::kPoseValid, M::kTracking}});
   std::size_t unchecked = 0;
-  for (const PoseTelemetry& t : story.reports) unchecked += t.reason == static_cast<std::uint8_t>(PoseReason::kUnchecked) ? 1 : 0;
+  for (const PoseTelemetry& t : story.reports) {
+    const bool waits = t.reason == static_cast<std::uint8_t>(PoseReason::kUnchecked);
+    unchecked += waits ? 1 : 0;
+    EXPECT_EQ(waits, t.mode == code(M::kVerifying)) << t.scan_id;
+  }
   EXPECT_GT(unchecked, 3u);
   EXPECT_EQ(story.last().refused_starts, 0u);
 }

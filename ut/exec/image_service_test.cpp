@@ -92,11 +92,11 @@ TEST(ImageTrial, AStartThatIsCheckedSaysNothingOfTheImage) {
   Registration registration;
   for (const PoseReason reason : {PoseReason::kUnchecked, PoseReason::kUnchecked, PoseReason::kContradicted}) {
     registration.reason = reason;
-    trial.note(registration, TrackingMode::kStarting);
+    trial.note(registration, TrackingMode::kVerifying);
     EXPECT_EQ(trial.verdict(), TrialVerdict::kOpen);
   }
   registration.reason = PoseReason::kValid;
-  trial.note(registration, TrackingMode::kStarting);
+  trial.note(registration, TrackingMode::kVerifying);
   EXPECT_EQ(trial.verdict(), TrialVerdict::kPassed);
 }
 

@@ -58,6 +58,22 @@ class ModeManagerAlone : public ::testing::Test {
     modes.follow(step);
     ASSERT_EQ(modes.mode(), M::kTracking);
   }
+  // A start that a scan has confirmed, and that is checked.
+  void verify() {
+    ASSERT_EQ(offer(InitialPoseSource::kUplink), StartRefusal::kNone);
+    modes.apply_request();
+    follow(E::kCheck, M::kVerifying);
+    PoseTelemetry told;
+    modes.report(told);
+  }
+  // What the next packet says of changes.
+  std::vector<std::pair<M, M>> changes() {
+    PoseTelemetry told;
+    modes.report(told);
+    std::vector<std::pair<M, M>> all;
+    for (std::size_t i = 0; i < told.changes; ++i) all.emplace_back(static_cast<M>(told.change_from[i]), static_cast<M>(told.change_to[i]));
+    return all;
+  }
   double common_errors() const { return modes.track().filter.common_pose.norm(); }
   // The items of the refusals of starts that were reported: source and refusal.
   std::vector<std::pair<InitialPoseSource, StartRefusal>> refusals() const {
@@ -113,6 +129,42 @@ TEST_F(ModeManagerAlone, ASearchBeginsAnewWhenTheClockJumps) {
     modes.follow_jump(60'000'000);
     EXPECT_EQ(modes.track().searches, mode == M::kSearching ? searches + 1 : searches);
   }
+}
+
+const std::vector<std::pair<M, M>> kBack{{M::kVerifying, M::kStarting}};
+
+TEST_F(ModeManagerAlone, ACheckedStartIsConfirmedAnewWhenTheClockJumps) {
+  VERIFIES("LASSO-MOD-188~1 LASSO-HLT-006~1");
+  verify();
+  for (int jump = 0; jump < 2; ++jump) modes.follow_jump(60'000'000);
+  EXPECT_EQ(modes.mode(), M::kStarting);
+  EXPECT_EQ(changes(), kBack) << "once";
+  EXPECT_TRUE(refusals().empty()) << "the start goes on";
+}
+
+TEST_F(ModeManagerAlone, ACheckedStartIsConfirmedAnewWithAnotherImageOfItsTarget) {
+  VERIFIES("LASSO-MOD-188~1 LASSO-IMG-013~1");
+  verify();
+  modes.take_over_track(true, true);
+  EXPECT_EQ(modes.mode(), M::kStarting);
+  EXPECT_EQ(changes(), kBack);
+  follow(E::kCheck, M::kVerifying);
+  EXPECT_EQ(changes().size(), 1u);
+  modes.take_over_track(false, true);
+  EXPECT_EQ(modes.mode(), M::kStandby);
+  EXPECT_EQ(changes().size(), 1u) << "and ends with its target";
+}
+
+TEST_F(ModeManagerAlone, ACheckedStartIsRefusedWhereItIsGivenUpAlone) {
+  VERIFIES("LASSO-MOD-188~1 LASSO-MOD-134~2");
+  verify();
+  follow(E::kPoseInvalid, M::kVerifying);
+  follow(E::kConfirmAnew, M::kStarting);
+  follow(E::kCheck, M::kVerifying);
+  EXPECT_TRUE(refusals().empty());
+  follow(E::kExhausted, M::kLost);
+  const std::vector<std::pair<InitialPoseSource, StartRefusal>> one{{InitialPoseSource::kUplink, StartRefusal::kNotConfirmed}};
+  EXPECT_EQ(refusals(), one);
 }
 
 // The errors of one sensor are not those of another one: the track that is taken up again knows that, too.

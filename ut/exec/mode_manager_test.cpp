@@ -178,7 +178,7 @@ TEST(ModeManager, CommandsThatCannotBeAreRefusedByTheirName) {
   ComponentScene scene(story_parameters());
   EXPECT_EQ(scene.component->command_mode(M::kStandby), ModeRefusal::kNotBegun);
   scene.begin();
-  for (const M mode : {M::kStarting, M::kCoasting, M::kLost}) {
+  for (const M mode : {M::kStarting, M::kCoasting, M::kLost, M::kVerifying}) {
     EXPECT_EQ(scene.component->command_mode(mode), ModeRefusal::kNotByCommand) << to_string(mode);
   }
   for (const M mode : {M::kTracking, M::kShortRange}) {
@@ -193,7 +193,7 @@ TEST(ModeManager, CommandsThatCannotBeAreRefusedByTheirName) {
   Story story;
   story.run(scene, 4);
   EXPECT_EQ(story.last().mode, code(M::kTracking));
-  EXPECT_EQ(story.last().refused_commands, 7u);
+  EXPECT_EQ(story.last().refused_commands, 8u);
 }
 
 TEST(ModeManager, AnyModeCanBeCommanded) {

@@ -269,8 +269,8 @@ TEST(Report, DictionaryNamesTheEnumerationsAsTheCodeDoes) {
   expect_names(kStopReason, StopReason::kNotRun);
   EXPECT_EQ(kFault.choices.size(), kFaults);
   expect_names(kFaultReaction, FaultReaction::kMakeSafe);
-  expect_names(kTrackingMode, TrackingMode::kSafe);
-  expect_names(kModeEvent, ModeEvent::kFallBack);
+  expect_names(kTrackingMode, TrackingMode::kVerifying);
+  expect_names(kModeEvent, ModeEvent::kConfirmAnew);
   expect_names(kStartSource, InitialPoseSource::kSearch);
   expect_names(kStartRefusal, StartRefusal::kContradicted);
   expect_names(kModeRefusal, ModeRefusal::kNoPrediction);

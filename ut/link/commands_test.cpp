@@ -229,7 +229,7 @@ TEST(Commands, ArgumentsOutOfRangeAreRefused) {
   EXPECT_EQ(fault_of(test::set_period(kStructures, 1)), PacketFault::kBadArgument);
   EXPECT_EQ(fault_of(test::correlate_time(0, -1)), PacketFault::kBadArgument);
   EXPECT_EQ(fault_of(test::correlate_time(4294967296000001, 0)), PacketFault::kBadArgument);
-  EXPECT_EQ(fault_of(test::set_mode(10)), PacketFault::kBadArgument);
+  EXPECT_EQ(fault_of(test::set_mode(11)), PacketFault::kBadArgument);
   EXPECT_EQ(fault_of(test::set_hold(2)), PacketFault::kBadArgument);
   StartCommand start;
   start.source = 6;

@@ -13,7 +13,8 @@ using M = TrackingMode;
 using E = ModeEvent;
 
 const std::set<E> kPoseEvents = {E::kPoseValid, E::kPoseInvalid, E::kExhausted, E::kRecover};
-const std::set<E> kRangeEvents = {E::kNear, E::kFar};  // of a valid pose, in the modes that they tell apart
+const std::set<E> kStartEvents = {E::kCheck, E::kConfirmAnew, E::kFallBack};  // of a start that is tried
+const std::set<E> kRangeEvents = {E::kNear, E::kFar};                         // of a valid pose, in the modes that they tell apart
 const std::set<E> kBearingEvents = {E::kBearingKnown, E::kBearingUnknown};
 
 std::set<M> reachable_from(M start) {
@@ -55,9 +56,9 @@ TEST(Modes, NoTransitionIsUnreachable) {
     const ModeProperties& from = properties(row.from);
     const std::set<E>& scans = from.full_field ? kBearingEvents : kPoseEvents;
     const bool commanded = mode_events()[static_cast<std::size_t>(row.event)].commanded;
-    const bool gives_up = row.event == E::kFallBack && row.from == M::kStarting;
+    const bool of_start = from.tries_start && kStartEvents.count(row.event) != 0;
     const bool by_range = !from.full_field && kRangeEvents.count(row.event) != 0;
-    EXPECT_TRUE(commanded || (from.scans && (by_range || gives_up || scans.count(row.event) != 0))) << from.name << ": " << row.meaning;
+    EXPECT_TRUE(commanded || (from.scans && (by_range || of_start || scans.count(row.event) != 0))) << from.name << ": " << row.meaning;
     EXPECT_EQ(reached.count(row.from), 1u) << from.name;
     EXPECT_STRNE(row.meaning, "");
   }
@@ -101,6 +102,29 @@ TEST(Modes, FollowTheStoryOfARecovery) {
   EXPECT_EQ(next_mode(M::kBearing, E::kBearingKnown), M::kBearing);
   EXPECT_EQ(next_mode(M::kBearing, E::kStart), M::kStarting);
   EXPECT_EQ(next_mode(M::kStarting, E::kRecover), M::kBearing);
+}
+
+TEST(Modes, FollowTheStoryOfACheckedStart) {
+  VERIFIES("LASSO-MOD-188~1");
+  EXPECT_EQ(next_mode(M::kStarting, E::kCheck), M::kVerifying);
+  EXPECT_EQ(next_mode(M::kVerifying, E::kPoseInvalid), M::kVerifying);
+  EXPECT_EQ(next_mode(M::kVerifying, E::kPoseValid), M::kTracking);
+  EXPECT_EQ(next_mode(M::kVerifying, E::kConfirmAnew), M::kStarting);
+  for (const ModeProperties& mode : mode_properties())
+    EXPECT_EQ(next_mode(mode.mode, E::kCheck) == M::kVerifying, mode.tries_start) << mode.name;
+}
+
+// Commands, faults and the end of its frames lead out of a start as if it were not checked.
+TEST(Modes, AStartIsLeftTheSameWayWhetherItIsCheckedOrNot) {
+  VERIFIES("LASSO-MOD-188~1");
+  const std::set<E> between = {E::kPoseInvalid, E::kCheck, E::kConfirmAnew};  // the start goes on
+  for (const ModeEventProperties& event : mode_events()) {
+    if (between.count(event.event) != 0) continue;
+    ASSERT_EQ(has_transition(M::kVerifying, event.event), has_transition(M::kStarting, event.event)) << event.name;
+    if (has_transition(M::kStarting, event.event)) {
+      EXPECT_EQ(next_mode(M::kVerifying, event.event), next_mode(M::kStarting, event.event)) << event.name;
+    }
+  }
 }
 
 TEST(Modes, FollowTheStoryOfASearch) {
@@ -165,7 +189,7 @@ TEST(Modes, AreCommandedByTheirEvents) {
   EXPECT_TRUE(command_event(M::kTracking, event));
   EXPECT_TRUE(command_event(M::kShortRange, event));
   EXPECT_TRUE(command_event(M::kSafe, event));
-  for (const M mode : {M::kStarting, M::kCoasting, M::kLost}) EXPECT_FALSE(command_event(mode, event)) << to_string(mode);
+  for (const M mode : {M::kStarting, M::kCoasting, M::kLost, M::kVerifying}) EXPECT_FALSE(command_event(mode, event)) << to_string(mode);
 }
 
 TEST(Modes, PropertiesLieAtTheirModesPlace) {

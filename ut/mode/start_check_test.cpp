@@ -1,81 +1,22 @@
-// A start whose scan is searched for a better pose before it is believed (start.check), and the track that a start interrupts.
-#include "fsw/mode/searcher.hpp"
-#include "ut/mode/mast_fixture.hpp"
+// A start whose scan is searched for a better pose before it is believed (start.check).
+#include "ut/mode/start_check_fixture.hpp"
 
 namespace lasso {
 namespace {
 
-using test::MastTest;
 using test::small_error;
+using test::StartCheckTest;
 using Stage = StartCheck::Stage;
 
-class StartCheckTest : public MastTest {
- protected:
-  void SetUp() override {
-    others_ = test::uneven_scene().others;
-    load_with_others(0);
-    mission_.parameters.start_check = 1;
-    mission_.parameters.search_slice = 2e7;  // the whole search in one frame
-  }
-
-  // A frame as the estimation task has it; its state is not taken.
-  TrackStep try_frame(std::uint32_t k, bool lost = false) {
-    const TrackState before = state_;
-    TrackStep step = lost ? miss(k) : track_view(k);
-    if (step.after.check.stage == Stage::kSearching) searcher_->check(mission_, lost ? nullptr : seen_.get(), *workspace_, step);
-    state_ = before;
-    return step;
-  }
-  TrackStep frame(std::uint32_t k, bool lost = false) {
-    const TrackStep step = try_frame(k, lost);
-    state_ = step.after;
-    return step;
-  }
-
-  // A start that is turned half about an axis of the target, and that a scan would confirm.
-  Vec3 deceptive_axis() {
-    MissionParameters& p = mission_.parameters;
-    p.inlier_share_min = p.agreement_min = p.start_check = 0;
-    p.noise_tolerance = 1000;
-    for (int i = 0; i < 3; ++i) {
-      const Vec3 axis = rotate(scene_.at_zero.q, Vec3::Unit(i));
-      start_turned(axis);
-      if (!track_view(0).registration.valid()) continue;
-      mission_.parameters.start_check = 1;
-      return axis;
-    }
-    ADD_FAILURE() << "no turned start is confirmed by itself";
-    return Vec3::UnitX();
-  }
-
-  // Ten frames of a right start, whose search goes on: the filter is established, and scans that it excludes are implausible.
-  void follow_unchecked() {
-    mission_.parameters.search_slice = 1000;
-    mission_.parameters.agreement_min = 0;  // one scan does not bring the pose all the way of a jump
-    start(small_error());
-    for (std::uint32_t k = 0; k < 10; ++k) ASSERT_EQ(frame(k).registration.reason, PoseReason::kUnchecked) << k;
-  }
-
-  // The frame in which the search of such a start's scan ends.
-  TrackStep verdict_on_deceptive_start(bool lost = false) {
-    start_turned(deceptive_axis());
-    EXPECT_EQ(frame(1).registration.reason, PoseReason::kUnchecked);
-    return frame(2, lost);
-  }
-
-  std::unique_ptr<Workspace> workspace_ = std::make_unique<Workspace>();
-  std::unique_ptr<Searcher> searcher_ = std::make_unique<Searcher>();
-};
-
 TEST_F(StartCheckTest, ARightStartIsBelievedOnceTheSearchHasFoundNothingElse) {
-  VERIFIES("LASSO-MOD-184~5 LASSO-MOD-132~1");
+  VERIFIES("LASSO-MOD-184~5 LASSO-MOD-132~1 LASSO-MOD-188~1");
   mission_.parameters.search_slice = 200000;
   start(small_error());
   std::uint32_t k = 0;
   TrackStep step = frame(k);
   for (; step.registration.reason == PoseReason::kUnchecked && k < 100; step = frame(++k)) {
-    ASSERT_EQ(step.after.mode, TrackingMode::kStarting);
-    EXPECT_EQ(step.event, ModeEvent::kPoseInvalid);
+    ASSERT_EQ(step.after.mode, TrackingMode::kVerifying);
+    EXPECT_EQ(step.event, k == 0 ? ModeEvent::kCheck : ModeEvent::kPoseInvalid);
     EXPECT_EQ(step.after.missed, 0) << "none of start.frames is used up";
     EXPECT_EQ(step.after.searches, 1u);
   }
@@ -83,7 +24,7 @@ TEST_F(StartCheckTest, ARightStartIsBelievedOnceTheSearchHasFoundNothingElse) {
   EXPECT_TRUE(step.registration.valid()) << to_string(step.registration.reason);
   EXPECT_EQ(step.event, ModeEvent::kPoseValid);
   EXPECT_EQ(step.after.mode, TrackingMode::kTracking);
-  EXPECT_EQ(step.after.check.stage, Stage::kNone);
+  EXPECT_EQ(step.after.check.stage, Stage::kAwaited);
   EXPECT_NE(step.search.outcome, SearchOutcome::kNone) << "what it found is reported";
   EXPECT_EQ(step.after.filter.accepted, k) << "the track was followed meanwhile";
   EXPECT_LT(error(step.after.filter.T_sensor_target, 0).norm(), 5e-3);
@@ -111,7 +52,7 @@ TEST_F(StartCheckTest, AWrongStartThatItsScanConfirmsIsContradicted) {
   EXPECT_EQ(step.refusal, StartRefusal::kContradicted);
   EXPECT_EQ(step.event, ModeEvent::kExhausted);
   EXPECT_EQ(step.after.mode, TrackingMode::kLost) << "without waiting for start.frames";
-  EXPECT_EQ(step.after.check.stage, Stage::kNone);
+  EXPECT_EQ(step.after.check.stage, Stage::kAwaited);
 }
 
 TEST_F(StartCheckTest, AVerdictInAFrameWhoseScanIsLostRefusesTheStartAndTellsOfTheScan) {
@@ -134,14 +75,17 @@ TEST_F(StartCheckTest, AWrongStartIsContradictedByASearchThatIsRejected) {
 }
 
 TEST_F(StartCheckTest, AHeldStartThatIsContradictedIsNotBelievedEither) {
-  VERIFIES("LASSO-MOD-184~5");
+  VERIFIES("LASSO-MOD-184~5 LASSO-MOD-188~1");
   const Vec3 axis = deceptive_axis();
   start_turned(axis);
   state_.held = true;
-  for (std::uint32_t k = 1; k < 4; ++k) {
+  for (std::uint32_t k = 1; k < 6; ++k) {
     const TrackStep step = frame(k);
-    EXPECT_FALSE(step.registration.valid()) << k;
-    EXPECT_EQ(step.after.mode, TrackingMode::kStarting) << k;
+    const bool begins = k % 2 == 1;
+    EXPECT_EQ(step.registration.reason, begins ? PoseReason::kUnchecked : PoseReason::kContradicted) << k;
+    EXPECT_EQ(step.after.mode, begins ? TrackingMode::kVerifying : TrackingMode::kStarting) << k;
+    EXPECT_EQ(step.event, begins ? ModeEvent::kCheck : ModeEvent::kConfirmAnew) << k;
+    EXPECT_EQ(step.after.missed, begins ? 0 : UINT16_MAX) << "given up where it is not held any more";
   }
 }
 
@@ -157,8 +101,9 @@ TEST_F(StartCheckTest, AStartIsBelievedWhoseCompetitorsExplainTheScanAsWell) {
   half_turn.p = scene_.box.center - rotate(half_turn.q, scene_.box.center);
   ASSERT_EQ(start_at(scene_.at_zero * half_turn, Twist{}, 0, 0), StartRefusal::kNone);
   EXPECT_EQ(frame(0).after.check.stage, Stage::kSearching);
-  EXPECT_EQ(frame(1).after.check.stage, Stage::kAgain);
-  EXPECT_EQ(frame(2, true).after.check.stage, Stage::kAgain) << "without a scan";
+  EXPECT_EQ(frame(1).after.check.stage, Stage::kAwaited);
+  EXPECT_EQ(frame(2, true).after.check.stage, Stage::kAwaited) << "without a scan";
+  EXPECT_EQ(state_.mode, TrackingMode::kVerifying);
   const TrackStep second = frame(3);
   EXPECT_EQ(second.registration.reason, PoseReason::kUnchecked);
   EXPECT_EQ(second.after.check.stage, Stage::kSearching);
@@ -175,7 +120,8 @@ TEST_F(StartCheckTest, TheSecondSearchHasTheLastWordWhereTheFirstIsUndecided) {
   const auto second_word = [&](CheckOutcome verdict) {
     TrackStep step = searching;
     end_check(mission_.parameters, CheckOutcome::kUndecided, step);
-    EXPECT_EQ(step.after.check.stage, Stage::kAgain);
+    EXPECT_EQ(step.after.check.stage, Stage::kAwaited);
+    EXPECT_EQ(step.after.mode, TrackingMode::kVerifying);
     EXPECT_EQ(step.registration.reason, PoseReason::kUnchecked);
     step.after.check.stage = Stage::kSearching;
     end_check(mission_.parameters, verdict, step);
@@ -189,14 +135,17 @@ TEST_F(StartCheckTest, TheSecondSearchHasTheLastWordWhereTheFirstIsUndecided) {
 }
 
 TEST_F(StartCheckTest, AnImplausibleScanEndsACheckThatWaitsForItsSecondSearch) {
-  VERIFIES("LASSO-MOD-184~5 LASSO-MOD-009~1");
+  VERIFIES("LASSO-MOD-184~5 LASSO-MOD-009~1 LASSO-MOD-188~1");
   follow_unchecked();
-  state_.check.stage = Stage::kAgain;
+  ASSERT_EQ(state_.mode, TrackingMode::kVerifying);
+  state_.check.stage = Stage::kAwaited;
   state_.check.undecided = true;
   scene_.at_zero.p += Vec3(0.006, -0.004, 0.007);
   const TrackStep jumped = frame(10);
   EXPECT_EQ(jumped.registration.reason, PoseReason::kImplausible);
-  EXPECT_EQ(jumped.after.check.stage, Stage::kNone);
+  EXPECT_EQ(jumped.event, ModeEvent::kConfirmAnew);
+  EXPECT_EQ(jumped.after.mode, TrackingMode::kStarting);
+  EXPECT_EQ(jumped.after.missed, 1) << "the start's frames count on";
   EXPECT_FALSE(jumped.after.check.undecided);
 }
 
@@ -240,24 +189,25 @@ TEST_F(StartCheckTest, ScansThatAreLostUseUpTheFramesOfAStartOnlyInARow) {
   frame(0);
   std::uint32_t k = 1;
   for (int round = 0; round < 2; ++round) {
-    for (int lost = 0; lost < 4; ++lost) ASSERT_EQ(frame(k++, true).after.mode, TrackingMode::kStarting);
+    for (int lost = 0; lost < 4; ++lost) ASSERT_EQ(frame(k++, true).after.mode, TrackingMode::kVerifying);
     ASSERT_EQ(frame(k++).registration.reason, PoseReason::kUnchecked) << round;
   }
 }
 
 // The search speaks of the pose that was confirmed, not of one that the scans have left for: that has to be confirmed by itself.
 TEST_F(StartCheckTest, ATrackThatItsScansContradictIsConfirmedAndCheckedAnew) {
-  VERIFIES("LASSO-MOD-184~5 LASSO-MOD-009~1");
+  VERIFIES("LASSO-MOD-184~5 LASSO-MOD-009~1 LASSO-MOD-188~1");
   follow_unchecked();
   std::uint32_t k = 10;
   mission_.parameters.search_slice = 2e7;
   scene_.at_zero.p += Vec3(0.006, -0.004, 0.007);
   const TrackStep jumped = frame(k++);
   EXPECT_EQ(jumped.registration.reason, PoseReason::kImplausible);
-  EXPECT_EQ(jumped.after.check.stage, Stage::kNone);
+  EXPECT_EQ(jumped.after.mode, TrackingMode::kStarting);
   TrackStep anew = frame(k++);
-  for (; anew.registration.reason == PoseReason::kFarFromStart; anew = frame(k++)) EXPECT_EQ(anew.after.check.stage, Stage::kNone);
+  for (; anew.registration.reason == PoseReason::kFarFromStart; anew = frame(k++)) EXPECT_EQ(anew.after.mode, TrackingMode::kStarting);
   EXPECT_EQ(anew.registration.reason, PoseReason::kUnchecked);
+  EXPECT_EQ(anew.after.mode, TrackingMode::kVerifying);
   EXPECT_EQ(anew.after.searches, 2u);
   EXPECT_LT(error(anew.after.check.T_sensor_target, 0).norm(), 5e-3);
   EXPECT_EQ(frame(k).after.mode, TrackingMode::kTracking);
@@ -265,7 +215,7 @@ TEST_F(StartCheckTest, ATrackThatItsScansContradictIsConfirmedAndCheckedAnew) {
 
 // A frame that is not ready at its boundary is dropped whole: the check that it began has no scan, and the next scan begins another.
 TEST_F(StartCheckTest, ACheckWhoseFrameWasDroppedBeginsAnew) {
-  VERIFIES("LASSO-MOD-184~5 LASSO-EXE-003~1");
+  VERIFIES("LASSO-MOD-184~5 LASSO-EXE-003~1 LASSO-MOD-188~1");
   mission_.parameters.search_slice = 1000;
   start(small_error());
   const TrackStep dropped = try_frame(0);
@@ -275,13 +225,26 @@ TEST_F(StartCheckTest, ACheckWhoseFrameWasDroppedBeginsAnew) {
   EXPECT_EQ(begun.after.searches, dropped.after.searches) << "as if it had been the first";
   ++state_.searches;
   const TrackState before = state_;
-  EXPECT_EQ(frame(2).after.check.stage, Stage::kNone) << "another search was begun, of which this is not the scan";
+  const TrackStep gone = frame(2);
+  EXPECT_EQ(gone.after.mode, TrackingMode::kStarting) << "another search was begun, of which this is not the scan";
+  EXPECT_EQ(gone.event, ModeEvent::kConfirmAnew);
   mission_.parameters.search_slice = 2e7;
   EXPECT_EQ(frame(3).registration.reason, PoseReason::kUnchecked);
   EXPECT_EQ(frame(4).after.mode, TrackingMode::kTracking);
   state_ = before;
   ++state_.searches;
-  EXPECT_EQ(frame(2, true).after.check.stage, Stage::kNone);
+  EXPECT_EQ(frame(2, true).after.mode, TrackingMode::kStarting);
+}
+
+// The frame that would begin the check has nothing to search: the next scan is asked.
+TEST_F(StartCheckTest, ACheckWithoutAScanDoesNotBegin) {
+  VERIFIES("LASSO-MOD-188~1");
+  start(small_error());
+  TrackStep step = track_view(0);
+  ASSERT_EQ(step.after.mode, TrackingMode::kVerifying);
+  searcher_->check(mission_, nullptr, *workspace_, step);
+  EXPECT_EQ(step.after.mode, TrackingMode::kStarting);
+  EXPECT_EQ(next_mode(TrackingMode::kStarting, step.event), step.after.mode) << "as the table has it";
 }
 
 // The check of a frame that was dropped has the number that the next search gets.
@@ -303,75 +266,9 @@ TEST_F(StartCheckTest, AnotherStartBeginsItsOwnCheck) {
   start(small_error());
   frame(0);
   start(small_error());
-  EXPECT_EQ(state_.check.stage, Stage::kNone);
+  EXPECT_EQ(state_.mode, TrackingMode::kStarting);
+  EXPECT_EQ(state_.check.stage, Stage::kAwaited);
   EXPECT_EQ(frame(1).after.searches, 2u);
-}
-
-class InterruptedTest : public StartCheckTest {
- protected:
-  void SetUp() override {
-    others_ = test::uneven_scene().others;
-    load_with_others(0.9);
-    mission_.parameters.start_frames = 1;
-    mission_.parameters.recover = 0;
-    start(small_error());
-    track_view(0);
-    track_view(1);
-    ASSERT_EQ(state_.mode, TrackingMode::kTracking);
-    tracked_ = state_.filter;
-  }
-  void offer_wrong_start() {
-    Pose wrong = scene_.at_zero;
-    wrong.q = normalized(exp_so3(Vec3(0, 0, kPi)) * wrong.q);
-    StartOffer offer = rough_offer(mission_.parameters, wrong, Twist{}, 0);
-    ASSERT_EQ(start_track(mission_, InitialPoseSource::kHandover, offer, 1400000, state_), StartRefusal::kNone);
-  }
-
-  FilterState tracked_;
-};
-
-TEST_F(InterruptedTest, AStartThatNoScanConfirmsGivesTheTrackBackThatItInterrupted) {
-  VERIFIES("LASSO-MOD-185~1");
-  offer_wrong_start();
-  EXPECT_EQ(track_view(2).event, ModeEvent::kPoseInvalid);
-  const TrackStep given_up = track_view(3);
-  EXPECT_EQ(given_up.event, ModeEvent::kFallBack);
-  EXPECT_EQ(given_up.after.mode, TrackingMode::kReacquiring);
-  EXPECT_FALSE(given_up.after.interrupts);
-  state_.filter = tracked_;  // as its keeper does
-  const TrackStep found = track_view(4);
-  EXPECT_EQ(found.after.mode, TrackingMode::kTracking) << to_string(found.registration.reason);
-  EXPECT_LT(error(found.after.filter.T_sensor_target, 0).norm(), 5e-3);
-}
-
-TEST_F(InterruptedTest, AnotherWrongStartInterruptsTheSameTrack) {
-  VERIFIES("LASSO-MOD-185~1");
-  offer_wrong_start();
-  offer_wrong_start();
-  EXPECT_TRUE(state_.interrupts);
-}
-
-TEST_F(InterruptedTest, AConfirmedStartForgetsTheTrackBefore) {
-  VERIFIES("LASSO-MOD-185~1");
-  start(small_error());
-  EXPECT_TRUE(state_.interrupts);
-  EXPECT_EQ(track_view(2).after.mode, TrackingMode::kTracking);
-  EXPECT_FALSE(state_.interrupts);
-}
-
-TEST_F(InterruptedTest, WhatWasNoTrackIsNotFallenBackTo) {
-  VERIFIES("LASSO-MOD-185~1");
-  for (const ModeEvent event : {ModeEvent::kSeek, ModeEvent::kSearch, ModeEvent::kStop}) {
-    const TrackState before = state_;
-    change_mode(event, state_);
-    state_.filter = tracked_;  // whatever may be left of one
-    offer_wrong_start();
-    EXPECT_FALSE(state_.interrupts) << to_string(event);
-    state_ = before;
-  }
-  state_.filter.initialised = false;  // its prediction had no meaning any more
-  offer_wrong_start();
-  EXPECT_FALSE(state_.interrupts);
 }
 
 }  // namespace

@@ -63,12 +63,11 @@ TEST_F(TrackerTest, WideStartTakesWhatANarrowOneCannot) {
 // Of a prediction that is believed to be right, so that the mode alone asks for a wide start, also after a scan that was lost.
 TEST_F(TrackerTest, OnlyModesThatLookForTheTargetRegisterFromAWideStart) {
   VERIFIES("LASSO-MOD-004~2");
-  const auto finds = [&](TrackingMode mode, StartCheck::Stage stage) {
+  const auto finds = [&](TrackingMode mode) {
     state_ = TrackState{};
     start(far_off());
     miss(0);
     state_.mode = mode;
-    state_.check.stage = stage;
     state_.filter.covariance = 1e-10 * state_.filter.covariance.Identity();
     const Registration found = track(1).registration;
     return error(found.T_sensor_target, found.t_us).norm() < 5e-3;
@@ -78,10 +77,9 @@ TEST_F(TrackerTest, OnlyModesThatLookForTheTargetRegisterFromAWideStart) {
     p.wide_start = wide;
     load(p);
     for (const TrackingMode mode : {TrackingMode::kStarting, TrackingMode::kReacquiring})
-      EXPECT_EQ(finds(mode, StartCheck::Stage::kNone), wide > 0) << static_cast<int>(mode);
-    for (const TrackingMode mode : {TrackingMode::kTracking, TrackingMode::kCoasting})
-      EXPECT_FALSE(finds(mode, StartCheck::Stage::kNone)) << static_cast<int>(mode);
-    EXPECT_FALSE(finds(TrackingMode::kStarting, StartCheck::Stage::kSearching)) << "a scan has confirmed it, and it is checked";
+      EXPECT_EQ(finds(mode), wide > 0) << to_string(mode);
+    for (const TrackingMode mode : {TrackingMode::kTracking, TrackingMode::kCoasting, TrackingMode::kVerifying})
+      EXPECT_FALSE(finds(mode)) << to_string(mode);
   }
 }
 
