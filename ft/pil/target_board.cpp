@@ -27,9 +27,6 @@ class Target {
     camera_.await();
     ground_.await();
     rig_.await();
-    if (!run_.head) return;
-    invariant(*run_.head + sizeof(lcs::HeadMemory) <= kRamBytes, "the head's memory is none of the board's");
-    head_ = reinterpret_cast<lcs::HeadMemory*>(ram_.map(run_.folder) + *run_.head);
   }
 
   Report read_report() {
@@ -98,7 +95,15 @@ class Target {
     throw mdat::RunError(why + "; awaited was " + awaited + where + ": " + advice);
   }
 
+  // The emulator makes the memory after its lines; a board that reports has it.
+  void map_head() {
+    if (!run_.head || head_ != nullptr) return;
+    invariant(*run_.head + sizeof(lcs::HeadMemory) <= kRamBytes, "the head's memory is none of the board's");
+    head_ = reinterpret_cast<lcs::HeadMemory*>(ram_.map(run_.folder) + *run_.head);
+  }
+
   void begin_anew() {
+    map_head();
     world_.emplace(setup_, head_);
     slot_ = 0;
     camera_.count_anew();
