@@ -5,11 +5,11 @@
 // camera's line ends after so many bytes. noise: the ground's begins with some. store: three starts try the store (store_story.hpp), the
 // first image buffer being at ADDRESS. whole: what they load is as large as what flies. memory: where the board's begins, 0. starts: so
 // many starts of the board are awaited, and the flight on the host left out. code: so much code the board watches, and the host beside it.
-// head: the board has its head beside it, and shares memory with it at ADDRESS (docs/in-sensor.md), the host likewise; the poses have to be
-// those of a flight of the host with a camera at its line, too. quiet: seconds of the host for which nothing may move on the lines, 30.
-// limit: seconds that all of it may take, 3600. points: rays of a scan, of which a mission's own may be too many for the board. progress: a
-// line `frame` on standard error for each frame that is done, on the host and on the board, instead of a bar for people. Exit codes: 0 the
-// same bits, 1 not, or the board failed, 2 usage or bad input.
+// head: the board has its head beside it, and shares memory with it at ADDRESS (docs/in-sensor.md), the host likewise; telemetry has
+// to be that of a flight of the host with a camera at its line, too. quiet: seconds of the host for which nothing may move on the
+// lines, 30. limit: seconds that all of it may take, 3600. points: rays of a scan, of which a mission's own may be too many for the board.
+// progress: a line `frame` on standard error for each frame that is done, on the host and on the board, instead of a bar for people. Exit
+// codes: 0 the same bits, 1 not, or the board failed, 2 usage or bad input.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -18,7 +18,6 @@
 #include <string>
 
 #include "fsw/exec/component.hpp"
-#include "fsw/link/packet.hpp"
 #include "ft/pil/boards.hpp"
 #include "ft/pil/store_story.hpp"
 #include "mdat/common/count.hpp"
@@ -190,22 +189,12 @@ void tell(const Packet& telemetry) {
               count_of("refused"), count_of("pong"), last("link", "laser_enabled", -1), last("link", "skipped_bytes", -1));
 }
 
-// What each packet `pose` says, without its headers, whose counts go by what else was sent.
-std::vector<Packet> poses_of(const Packet& telemetry) {
-  std::vector<Packet> poses;
-  for (const mdat::DecodedPacket& packet : mdat::decode_stream({telemetry.data(), telemetry.size()}, PacketType::kTelemetry).packets) {
-    if (packet.name() == std::string("pose"))
-      poses.emplace_back(packet.bytes.begin() + kPacketHeaderBytes, packet.bytes.end() - kPacketTrailerBytes);
-  }
-  return poses;
-}
-
-// Of a board with its head beside it, and of a host with a camera at its line, which has scanned the same.
-int compare_poses(const Packet& at_line, const Packet& board) {
-  const std::vector<Packet> expected = poses_of(at_line), poses = poses_of(board);
-  const bool same = !poses.empty() && poses == expected;
-  std::printf("poses: %zu of the board, %zu with a camera at a line: %s\n", poses.size(), expected.size(), same ? "the same" : "others");
-  return same ? mdat::kExitDone : mdat::kExitFailed;
+// Whether the board has said what `host`, a flight that `what` names, has; told to people.
+int judge(const char* what, const Packet& host, const Packet& board) {
+  const std::string wrong = difference(host, board);
+  if (wrong.empty()) std::printf("same%s: %zu bytes of telemetry\n", what, host.size());
+  if (!wrong.empty()) std::printf("differs%s: %s\n", what, wrong.c_str());
+  return wrong.empty() ? mdat::kExitDone : mdat::kExitFailed;
 }
 
 int compare(const Options& options, const Packet& host, const TargetFlight& flight) {
@@ -214,10 +203,7 @@ int compare(const Options& options, const Packet& host, const TargetFlight& flig
     if (options.store != 0) std::printf("%s\n", told_of_store(telemetry).c_str());
   }
   if (options.starts > 1) return mdat::kExitDone;
-  const std::string wrong = difference(host, flight.telemetry.back());
-  if (wrong.empty()) std::printf("same: %zu bytes of telemetry\n", host.size());
-  if (!wrong.empty()) std::printf("differs: %s\n", wrong.c_str());
-  return wrong.empty() ? mdat::kExitDone : mdat::kExitFailed;
+  return judge("", host, flight.telemetry.back());
 }
 
 // The image that the ground loads: of a box, small, and of another mission; or as the one that flies, with another parameter.
@@ -283,7 +269,7 @@ int run(const Options& options) {
   mdat::write_file(options.out + "/slots.csv", csv(flight.slots));
   const int same = compare(options, host, flight);
   if (!options.head) return same;
-  return std::max(same, compare_poses(fly_host(Head::kAtLine), flight.telemetry.back()));
+  return std::max(same, judge(", with a camera at a line", fly_host(Head::kAtLine), flight.telemetry.back()));
 }
 
 }  // namespace
