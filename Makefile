@@ -388,7 +388,7 @@ $(call compile,$(CLANG),pil_rig)
 $(call configure,$(BOARD)-fixed,$(FLIGHT_BOARD) $(FIXED))
 $(call compile,$(BOARD)-fixed,flight_603e)
 $(call configure,$(SECOND),$(SECOND_BOARD))
-$(call compile,$(SECOND),flight_cortexa9 planted_cortexa9)
+$(call compile,$(SECOND),flight_cortexa9 in_sensor_cortexa9 planted_cortexa9)
 endef
 pil: prove ## board: the component on the bare 603e and Cortex-A9, camera and ground at their lines: FRAMES= FLIGHT=in_sensor
 	$(begin)

@@ -28,9 +28,10 @@ from progress import Progress  # noqa: E402
 WHOLE_FRAMES, MOST_FRAMES = 360, 100_000  # LASSO-PLT-014
 MISSION, SCENARIO, SLOTS, PERIOD_MS = 'cfg/missions/hubble_tenth.toml', 'spin', 20, 200
 # Of each flight: its number type and board; where make prove leaves the bounds of its stacks, where it does.
-FLIGHTS = 'float', 'fixed', 'cortexa9'  # of a run; in_sensor is one by itself
-NUMBERS = {'float': 'float', 'fixed': 'fixed', 'cortexa9': 'float', 'in_sensor': 'float'}
-BOARDS = {'float': PPC603E, 'fixed': PPC603E, 'cortexa9': CORTEXA9, 'in_sensor': PPC603E}
+FLIGHTS = 'float', 'fixed', 'cortexa9'  # of a run; in_sensor is one by itself, on the second board in samples alone
+IN_SENSOR = 'in_sensor', 'in_sensor_cortexa9'
+NUMBERS = {'float': 'float', 'fixed': 'fixed', 'cortexa9': 'float', 'in_sensor': 'float', 'in_sensor_cortexa9': 'float'}
+BOARDS = {'float': PPC603E, 'fixed': PPC603E, 'cortexa9': CORTEXA9, 'in_sensor': PPC603E, 'in_sensor_cortexa9': CORTEXA9}
 PROOFS = {'float': 'prove', 'fixed': 'fixed-point/prove', 'in_sensor': 'prove'}  # of all drivers, whose stack counts as the interface's
 PIPELINE_FRAMES = 2  # of the rig's
 IDLE_HELD = 'float', 'in_sensor'  # LASSO-PLT-016: fixed point is for a processor without a floating-point unit (docs/pil.md)
@@ -201,12 +202,15 @@ def results_of(gate, number, elf, out, said, frames):
     return results | {'scenario': SCENARIO, 'telemetry': said, 'frames_asked': frames, 'valid_poses': int(VALID.search(said)[1])}, flown
 
 
+def kind_of(number):
+    return 'in_sensor' if number in IN_SENSOR else 'flight'
+
+
 def fly(gate, number, host, board, frames, progress):
     """One flight on the host and on the board."""
-    in_sensor = number == 'in_sensor'
-    elf, out = BOARDS[number].image(board, 'in_sensor' if in_sensor else 'flight'), gate.out / number
+    elf, out = BOARDS[number].image(board, kind_of(number)), gate.out / number
     check_number(gate, number, elf)
-    code, said, machine = emulator.fly(f'{host}/ft/pil/pil_rig', elf, [MISSION, SCENARIO, frames, out], out, emulator.seconds_for(frames), BOARDS[number], progress=progress, in_sensor=in_sensor)
+    code, said, machine = emulator.fly(f'{host}/ft/pil/pil_rig', elf, [MISSION, SCENARIO, frames, out], out, emulator.seconds_for(frames), BOARDS[number], progress=progress, in_sensor=number in IN_SENSOR)
     if code != 0:
         gate.stop(f'{number}: {said or "the board failed"} ({machine.said()})')
     return results_of(gate, number, elf, out, said, frames)
@@ -214,7 +218,7 @@ def fly(gate, number, host, board, frames, progress):
 
 def fly_all(gate, flights, frames):
     """One beside the other, with one progress: a line of each would overwrite the others'. The first that fails ends all."""
-    flown = sum(3 if number == 'in_sensor' else 2 for number in flights)  # that one's host flies with a camera at its line, too
+    flown = sum(3 if number in IN_SENSOR else 2 for number in flights)  # that one's host flies with a camera at its line, too
     progress = Progress('fly', flown * (frames + PIPELINE_FRAMES), 'frames on hosts and boards')
     with concurrent.futures.ThreadPoolExecutor(initializer=emulator.leave_endings_to_main) as pool:
         jobs = {number: pool.submit(fly, gate, number, *folders, frames, progress) for number, folders in flights.items()}
