@@ -49,8 +49,7 @@ struct TargetRun {
   std::string folder;  // where camera.sock, ground.sock and rig.sock are made, at which the emulator is awaited
   std::uint32_t frames = 0, starts = 1;
   Patience patience;
-  std::optional<std::size_t> head =
-      std::nullopt;  // bytes from the begin of the board's memory, OUT/ram.bin, to its lcs::HeadMemory, if it has one
+  std::optional<std::size_t> head = std::nullopt;  // where in the board's memory, folder/ram.bin, its lcs::HeadMemory is, if it has one
 };
 
 // Ends after `frames` frames, or after that many since the last start when `starts` are awaited. Throws mdat::RunError, which names what

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "ut/hal_lcs/driver_fixture.hpp"
@@ -286,6 +288,10 @@ TEST_F(LcsHeadDriver, WaitsForAStatusThatIsWhole) {
   memory.status[7] ^= 1;
   EXPECT_EQ(poll().count, 0U);
   EXPECT_EQ(driver.counters().damaged_frames, 1U);
+  const FrameBytes other = encode(0, ScanEnd{});
+  std::copy_n(other.bytes, other.size, memory.status);
+  EXPECT_EQ(poll().count, 0U);
+  EXPECT_EQ(driver.counters().damaged_frames, 2U);
   head.say(true);
   EXPECT_EQ(poll().count, 10U);
 }
@@ -297,10 +303,11 @@ TEST_F(LcsHeadDriver, SamplesWhoseTimeCannotBeMakeNoStatement) {
   const RawSample raw = Camera(*std::make_unique<Line>()).wall(plan, 20, 1).samples[0];
   head.record(20, raw, at(20) + kClockToleranceUs + 1);
   head.record(25, raw, at(25) - kClockToleranceUs - 1);
-  head.record(30, raw, at(28));  // before its predecessor
+  head.record(30, raw, at(28));                                               // before its predecessor
+  for (std::uint16_t ray = 1; ray <= 6; ++ray) head.record(ray, raw, at(0));  // the last of them 6 ms off, the others within 5
   EXPECT_TRUE(poll().complete);
-  EXPECT_EQ(driver.counters().bad_times, 3U);
-  for (const std::size_t ray : {20U, 25U, 30U}) {
+  EXPECT_EQ(driver.counters().bad_times, 4U);
+  for (const std::size_t ray : {6U, 20U, 25U, 30U}) {
     EXPECT_EQ(samples[ray].state, RayState::kInvalid);
     EXPECT_EQ(samples[ray].t_us, samples[ray - 1].t_us);
   }
@@ -326,14 +333,29 @@ TEST_F(LcsHeadDriver, CountsWhatMakesNoStatement) {
 
 TEST_F(LcsHeadDriver, AScanOfAnotherPatternIsLost) {
   plan = small_plan(0x301, 100);
+  std::uint32_t looks = 0;
+  for (const auto& [x, y] : {std::pair{0.05, 0.0}, {-0.05, 0.0}, {0.0, 0.05}, {0.0, -0.05}}) {
+    begin(plan);
+    ScanPlan other = plan;
+    other.center_x += x;
+    other.center_y += y;
+    head.measure(other, other.points);
+    EXPECT_EQ(poll().status, Status::kOffPlan);
+    EXPECT_EQ(driver.counters().off_plan, looks += kOffPlanFrames);
+    EXPECT_EQ(poll().status, Status::kNoData);
+  }
+}
+
+TEST_F(LcsHeadDriver, HandsOverNoMoreThanThereIsRoomFor) {
   begin(plan);
-  ScanPlan other = plan;
-  other.center_x += 0.05;
-  head.measure(other, other.points);
-  const SensorPoll result = poll();
-  EXPECT_EQ(result.status, Status::kOffPlan);
-  EXPECT_EQ(driver.counters().off_plan, kOffPlanFrames);
-  EXPECT_EQ(poll().status, Status::kNoData);
+  head.measure(plan, plan.points);
+  head.say(false);
+  const SensorPoll some = driver.poll(kLaterUs, {out, 7});
+  EXPECT_EQ(some.count, 7U);
+  EXPECT_FALSE(some.complete);
+  const SensorPoll rest = poll();
+  EXPECT_EQ(rest.count, plan.points - 7U);
+  EXPECT_TRUE(rest.complete);
 }
 
 TEST_F(LcsHeadDriver, GoesByTheCalibrationThatItIsGiven) {
@@ -362,6 +384,13 @@ TEST_F(LcsHeadDriver, ItsTemperatureIsThatOfTheScansBegin) {
   head.measure(plan, plan.points);
   EXPECT_TRUE(poll().complete);
   for (const RangeSample& sample : samples) EXPECT_NEAR(static_cast<double>(sample.range_m * sample.direction[2]), kDepthM, 2e-5);
+}
+
+TEST(LcsHeadDriverDeath, CalibrationThatIsNotValid) {
+  Calibration bad = calibration();
+  bad.baseline_m = 0;
+  HeadMemory memory;
+  EXPECT_DEATH(HeadDriver(memory, Optics(bad)), "lcs calibration");
 }
 
 TEST(SharedWord, HasItsHighestByteFirst) {
