@@ -5,14 +5,11 @@
 #include "bsp/bare/head.hpp"
 
 namespace lasso::bare {
-namespace {
-
-alignas(lcs::Driver) std::uint8_t driver_memory[sizeof(lcs::Driver)];
-
-}  // namespace
 
 const std::uint32_t camera_port = kCameraPort, ground_port = kGroundPort;
 
-Sensor& make_sensor(lcs::Line& camera_line) { return *new (driver_memory) lcs::Driver(camera_line, lcs::Optics(design_calibration())); }
+Sensor& make_sensor(DriverMemory& memory, lcs::Line& camera_line) {
+  return *new (memory.bytes) lcs::Driver(camera_line, lcs::Optics(design_calibration()));
+}
 
 }  // namespace lasso::bare

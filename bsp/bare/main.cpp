@@ -46,6 +46,7 @@ Straps straps{};
 alignas(RamStore) std::uint8_t store_memory[sizeof(RamStore)];
 alignas(Board) std::uint8_t board_memory[sizeof(Board)];
 alignas(Component) std::uint8_t component_memory[sizeof(Component)];
+DriverMemory driver_memory;
 alignas(Flight) std::uint8_t flight_memory[sizeof(Flight)];
 alignas(Clock) std::uint8_t clock_memory[sizeof(Clock)];
 Board* board = nullptr;
@@ -115,7 +116,7 @@ BoardMemory board_memory_of(RamStore& store) {
 }
 
 Component& make_component(Board& b, ResetCause cause) {
-  auto* component = new (component_memory) Component(make_sensor(b.camera_line));
+  auto* component = new (component_memory) Component(make_sensor(driver_memory, b.camera_line));
   component->set_reset_cause(cause);
   auto* store = new (store_memory) RamStore(Bytes(board_store, bytes_between(board_store, board_store_end)), kMissionBytes, write_back);
   ImageStart started;

@@ -4,20 +4,15 @@
 
 #include "bsp/bare/board.hpp"
 #include "bsp/bare/head.hpp"
-#include "hal_lcs/head_driver.hpp"
 
 namespace lasso::bare {
 
 lcs::HeadMemory head_memory;  // by this name the rig finds it (ft/pil/boards.py)
 
-namespace {
-
-alignas(lcs::HeadDriver) std::uint8_t driver_memory[sizeof(lcs::HeadDriver)];
-
-}  // namespace
-
 const std::uint32_t camera_port = kGroundPort, ground_port = kCameraPort;
 
-Sensor& make_sensor(lcs::Line&) { return *new (driver_memory) lcs::HeadDriver(head_memory, lcs::Optics(design_calibration())); }
+Sensor& make_sensor(DriverMemory& memory, lcs::Line&) {
+  return *new (memory.bytes) lcs::HeadDriver(head_memory, lcs::Optics(design_calibration()));
+}
 
 }  // namespace lasso::bare
