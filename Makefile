@@ -378,7 +378,7 @@ $(call packages,build target)
 $(call configure,$(BUILD),)
 $(call compile,$(BUILD),pil_rig)
 $(call configure,$(BOARD),$(FLIGHT_BOARD))
-$(call compile,$(BOARD),flight_603e planted_603e)
+$(call compile,$(BOARD),flight_603e in_sensor_603e planted_603e)
 endef
 define on_board
 $(on_first_board)
@@ -388,12 +388,12 @@ $(call compile,$(CLANG),pil_rig)
 $(call configure,$(BOARD)-fixed,$(FLIGHT_BOARD) $(FIXED))
 $(call compile,$(BOARD)-fixed,flight_603e)
 $(call configure,$(SECOND),$(SECOND_BOARD))
-$(call compile,$(SECOND),flight_cortexa9 planted_cortexa9)
+$(call compile,$(SECOND),flight_cortexa9 in_sensor_cortexa9 planted_cortexa9)
 endef
-pil: prove ## board: the component on the bare 603e and Cortex-A9, camera and ground at their lines: FRAMES=
+pil: prove ## board: the component on the bare 603e and Cortex-A9, camera and ground at their lines: FRAMES= FLIGHT=in_sensor
 	$(begin)
-	$(on_board)
-	@ft/pil/run.py $(BUILD) $(BOARD) $(CLANG) $(BOARD)-fixed $(SECOND) $(or $(FRAMES),360)
+	$(if $(FLIGHT),$(on_first_board),$(on_board))
+	@ft/pil/run.py $(BUILD) $(BOARD) $(CLANG) $(BOARD)-fixed $(SECOND) $(or $(FRAMES),360) $(FLIGHT)
 
 pil-sample: $(if $(ORDERED),,prove) ## board: the same for a few frames, and the answers of the boards to planted faults
 	$(begin)

@@ -1,16 +1,14 @@
 #include "hal_lcs/driver.hpp"
 
 #include "fsw/core/invariant.hpp"
-#include "fsw/geometry/portable_math.hpp"
 #include "fsw/sense/pattern.hpp"
+#include "hal_lcs/plan_check.hpp"
 
 namespace lasso::lcs {
 namespace {
 
 constexpr double kBitsPerByte = 10;
 constexpr std::size_t kCommandBytes = 128;  // self-test, status, laser, start
-
-double magnitude(double x) { return x < 0 ? -x : x; }
 
 // As the plan, but for its aimed rays, which follow the command.
 StartCommand start_command(const ScanPlan& plan) {
@@ -263,13 +261,7 @@ void Driver::take(const Samples& samples) {
 }
 
 void Driver::check_plan(const Samples& samples) {
-  const RawSample& raw = samples.samples[0];
-  if (raw.kind == SampleKind::kNotAimed) return;
-  const Vec3 planned = pattern_direction(scan_.plan, samples.first);
-  const Mirrors mirrors = optics_.mirrors();
-  const double off_x = tangent(raw.angle_x_rad + mirrors.x_offset_rad) - planned.x() / planned.z();
-  const double off_y = tangent(raw.angle_y_rad + mirrors.y_offset_rad) - planned.y() / planned.z();
-  if (magnitude(off_x) < kMirrorTolerance && magnitude(off_y) < kMirrorTolerance) return;
+  if (follows_plan(scan_.plan, samples.first, samples.samples[0], optics_.mirrors())) return;
   ++health_.off_plan;
   if (++scan_.off_plan == kOffPlanFrames) lose(Loss::kOffPlan, Status::kOffPlan);
 }

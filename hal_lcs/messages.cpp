@@ -1,8 +1,8 @@
 #include "hal_lcs/messages.hpp"
 
-#include "fsw/core/byte_codec.hpp"
 #include "fsw/core/invariant.hpp"
 #include "fsw/geometry/portable_math.hpp"
+#include "hal_lcs/sample_codec.hpp"
 
 namespace lasso::lcs {
 namespace {
@@ -10,7 +10,6 @@ namespace {
 constexpr double kSteps = 8388608;          // 2^23 a radian, or a half width
 constexpr double kPhaseSteps = 4294967296;  // 2^32 a turn: what is below one turn stays below it
 constexpr std::int32_t kEnd24 = 1 << 23;
-constexpr std::size_t kSampleBytes = 12;
 constexpr std::size_t kSamplesHead = 7;
 constexpr std::size_t kAimHead = 2;
 constexpr std::size_t kAimedBytes = 8;
@@ -74,7 +73,17 @@ void get_measured(std::uint32_t word, RawSample& sample) {
 
 void put_phase(ByteWriter& out, double turns) { out.u32(static_cast<std::uint32_t>(clamp(turns, 0, 1 - 1 / kPhaseSteps) * kPhaseSteps)); }
 
-void put(ByteWriter& out, const RawSample& sample, std::uint32_t base_us) {
+// Whether `items` of one size after a head make up the payload: how many, 0 if they do not.
+std::size_t items_of(const Frame& frame, std::size_t head, std::size_t size) {
+  if (frame.length < head || (frame.length - head) % size != 0) return 0;
+  return (frame.length - head) / size;
+}
+static_assert((kMaxPayload - kSamplesHead) / kSampleBytes == kSamplesPerFrame, "a frame holds no more than a message");
+static_assert((kMaxPayload - kAimHead) / kAimedBytes == kAimedPerFrame, "a frame holds no more than a message");
+
+}  // namespace
+
+void write_sample(ByteWriter& out, const RawSample& sample, std::uint32_t base_us) {
   const std::uint32_t offset_us = sample.clock_us - base_us;
   invariant(offset_us <= kMaxSampleOffsetUs, "lcs sample time");
   out.u16(static_cast<std::uint16_t>(offset_us));
@@ -84,7 +93,7 @@ void put(ByteWriter& out, const RawSample& sample, std::uint32_t base_us) {
   out.u8(static_cast<std::uint8_t>((static_cast<unsigned>(sample.kind) << 4) | (sample.intensity & kMaxIntensity)));
 }
 
-Status get(ByteReader& in, std::uint32_t base_us, RawSample& sample) {
+Status read_sample(ByteReader& in, std::uint32_t base_us, RawSample& sample) {
   sample.clock_us = base_us + in.u16();
   sample.angle_x_rad = get_fraction(in);
   sample.angle_y_rad = get_fraction(in);
@@ -97,16 +106,6 @@ Status get(ByteReader& in, std::uint32_t base_us, RawSample& sample) {
   get_measured(measured, sample);
   return Status::kOk;
 }
-
-// Whether `items` of one size after a head make up the payload: how many, 0 if they do not.
-std::size_t items_of(const Frame& frame, std::size_t head, std::size_t size) {
-  if (frame.length < head || (frame.length - head) % size != 0) return 0;
-  return (frame.length - head) / size;
-}
-static_assert((kMaxPayload - kSamplesHead) / kSampleBytes == kSamplesPerFrame, "a frame holds no more than a message");
-static_assert((kMaxPayload - kAimHead) / kAimedBytes == kAimedPerFrame, "a frame holds no more than a message");
-
-}  // namespace
 
 FrameBytes encode(std::uint8_t sequence, Type without_payload) { return Writer().frame(sequence, without_payload); }
 
@@ -174,7 +173,7 @@ FrameBytes encode(std::uint8_t sequence, const Samples& message) {
   writer.to().u8(message.tag);
   writer.to().u16(message.first);
   writer.to().u32(base_us);
-  for (std::size_t i = 0; i < message.count; ++i) put(writer.to(), message.samples[i], base_us);
+  for (std::size_t i = 0; i < message.count; ++i) write_sample(writer.to(), message.samples[i], base_us);
   return writer.frame(sequence, Type::kSamples);
 }
 
@@ -267,7 +266,7 @@ Status decode(const Frame& frame, Samples& message) {
   const std::uint32_t base_us = in.u32();
   Status status = Status::kOk;
   for (std::size_t i = 0; i < message.count; ++i) {
-    const Status one = get(in, base_us, message.samples[i]);
+    const Status one = read_sample(in, base_us, message.samples[i]);
     if (one != Status::kOk) status = one;
   }
   return status;

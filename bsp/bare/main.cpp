@@ -6,6 +6,7 @@
 #include "bsp/bare/cpu.hpp"
 #include "bsp/bare/fault.hpp"
 #include "bsp/bare/flight.hpp"
+#include "bsp/bare/head.hpp"
 #include "bsp/bare/loaded.hpp"
 #include "bsp/bare/ram_store.hpp"
 #include "fsw/exec/report.hpp"
@@ -36,8 +37,8 @@ struct Board {
   lcs::Line camera_line;
   GroundLine ground_line;
   Ring rig_in, rig_out;
-  SerialPort camera{port_registers(kCameraPort), camera_line.from_camera, camera_line.to_camera};
-  SerialPort ground{port_registers(kGroundPort), ground_line.in, ground_line.out};
+  SerialPort camera{port_registers(camera_port), camera_line.from_camera, camera_line.to_camera};
+  SerialPort ground{port_registers(ground_port), ground_line.in, ground_line.out};
   SerialPort rig_port{port_registers(kRigPort), rig_in, rig_out};
   Rig rig{rig_port, rig_in, rig_out};
 };
@@ -45,18 +46,12 @@ Straps straps{};
 alignas(RamStore) std::uint8_t store_memory[sizeof(RamStore)];
 alignas(Board) std::uint8_t board_memory[sizeof(Board)];
 alignas(Component) std::uint8_t component_memory[sizeof(Component)];
-alignas(lcs::Driver) std::uint8_t driver_memory[sizeof(lcs::Driver)];
+DriverMemory driver_memory;
 alignas(Flight) std::uint8_t flight_memory[sizeof(Flight)];
 alignas(Clock) std::uint8_t clock_memory[sizeof(Clock)];
 Board* board = nullptr;
 Flight* flight = nullptr;
 std::uint32_t services = 0;  // since the last wake-up call
-
-lcs::Calibration calibration() {
-  lcs::Calibration design;
-  design.serial = 1;
-  return design;
-}
 
 bool strapped() { return straps.magic == kStrapsMagic; }
 
@@ -121,8 +116,7 @@ BoardMemory board_memory_of(RamStore& store) {
 }
 
 Component& make_component(Board& b, ResetCause cause) {
-  auto* driver = new (driver_memory) lcs::Driver(b.camera_line, lcs::Optics(calibration()));
-  auto* component = new (component_memory) Component(*driver);
+  auto* component = new (component_memory) Component(make_sensor(driver_memory, b.camera_line));
   component->set_reset_cause(cause);
   auto* store = new (store_memory) RamStore(Bytes(board_store, bytes_between(board_store, board_store_end)), kMissionBytes, write_back);
   ImageStart started;

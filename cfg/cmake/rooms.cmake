@@ -137,7 +137,7 @@ endfunction()
 
 # hal_sim's sensors, which need nothing but the standard library: the sensors' contract is tested on the target too.
 function(lasso_simulated_sensors)
-  foreach(STEM common_error detector laser_reflection lcs_device lcs_direct lcs_head random replay_sensor scanner scanner_model scatter_volume sensor_recording trajectory)
+  foreach(STEM common_error detector laser_reflection lcs_device lcs_direct lcs_head random replay_sensor scanner scanner_model scatter_volume sensor_recording trajectory memory_head)
     list(APPEND SOURCES ${PROJECT_SOURCE_DIR}/hal_sim/${STEM}.cpp)
   endforeach()
   add_library(hal_sim_sensors STATIC ${SOURCES})

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,10 @@ struct HostMemory {
   std::size_t code_bytes = 0;  // that the target's scrub watches beside the image
 };
 
+enum class Head : std::uint8_t { kAtLine, kBesideProcessor };
+
 // The telemetry of `frames` frames. Throws mdat::RunError.
-Packet fly_on_host(const WorldSetup& setup, const HostMemory& memory, std::uint32_t frames, const Told& told);
+Packet fly_on_host(const WorldSetup& setup, const HostMemory& memory, Head head, std::uint32_t frames, const Told& told);
 
 struct Report {
   std::uint32_t words[bare::kRigWords] = {};
@@ -46,6 +49,7 @@ struct TargetRun {
   std::string folder;  // where camera.sock, ground.sock and rig.sock are made, at which the emulator is awaited
   std::uint32_t frames = 0, starts = 1;
   Patience patience;
+  std::optional<std::size_t> head = std::nullopt;  // where in the board's memory, folder/ram.bin, its lcs::HeadMemory is, if it has one
 };
 
 // Ends after `frames` frames, or after that many since the last start when `starts` are awaited. Throws mdat::RunError, which names what

@@ -4,6 +4,8 @@ import pathlib
 import re
 import subprocess
 
+PORTS = ('camera', 'ground', 'rig', 'console')  # what is at the serial ports of an image
+IN_SENSOR_PORTS = ('ground', 'camera', 'rig', 'console')  # of one with its head beside it: the camera's line leads to the ground, the other nowhere
 SHIFT = 7  # an instruction is 2^7 ns of the emulator's time
 MIPS = 100  # and 10 ns of the board's
 ANY_ID = re.compile(rb'3dlasso board ([\w-]+)\0')
@@ -54,6 +56,10 @@ class Board:
     def image(self, folder, kind='flight'):
         return f'{folder}/{kind}_{self.suffix}.elf'
 
+    def head(self, elf):
+        """Where an image shares memory with its head (bsp/bare/own_head.cpp)."""
+        return self.symbols(elf)['head_memory']
+
     def check_image(self, elf):
         """The image is for this board."""
         try:
@@ -91,9 +97,10 @@ class Ppc603e(Board):
         return [self.qemu, '-M', f'g3beige{options}', '-cpu', processor or self.processor, '-m', '256', '-bios', str(reset), '-vga', 'none', '-net', 'none',
                 '-display', 'none', '-parallel', 'none', '-no-reboot']
 
-    def ports(self, card=True):
-        """Camera, ground, rig and console at its serial ports; the console at the chip's own, too, for a board without its card."""
-        return ['-serial', 'chardev:console', *(['-device', 'pci-serial-4x,chardev1=camera,chardev2=ground,chardev3=rig,chardev4=console'] if card else [])]
+    def ports(self, names, card=True):
+        """What is at its serial ports, the last of which is the console; the console at the chip's own, too, for a board without its card."""
+        at = ','.join(f'chardev{number}={name}' for number, name in enumerate(names, 1))
+        return ['-serial', 'chardev:console', *(['-device', f'pci-serial-4x,{at}'] if card else [])]
 
 
 class CortexA9(Board):
@@ -101,8 +108,8 @@ class CortexA9(Board):
         return [self.qemu, '-M', f'vexpress-a9{options}', '-cpu', processor or self.processor, '-m', '256', '-net', 'none', '-display', 'none', '-parallel', 'none',
                 '-audiodev', 'none,id=mute', '-global', 'pl041.audiodev=mute', '-no-reboot']
 
-    def ports(self, _=True):
-        return [word for name in ('camera', 'ground', 'rig', 'console') for word in ('-serial', f'chardev:{name}')]
+    def ports(self, names, _=True):
+        return [word for name in names for word in ('-serial', f'chardev:{name}')]
 
 
 PPC603E = Ppc603e('ppc603e', 'ppc603e-grackle', '603e', 'qemu-system-ppc', 'target', 'powerpc-linux-gnu-', 'g++-powerpc-linux-gnu', '603e', '32-bit PowerPC',

@@ -11,7 +11,7 @@ import sys
 import threading
 import time
 
-from boards import PPC603E, SHIFT, Failure
+from boards import IN_SENSOR_PORTS, PORTS, PPC603E, SHIFT, Failure
 
 STRAPS_MAGIC = 0x53545250
 VERSION_S = 10  # of the host, in which the emulator has to say its version
@@ -101,23 +101,25 @@ def end_with_children():
 
 
 class Emulator:
-    """Running until the end of the with block. What the board's console says is kept, and said when something fails. card: the serial ports are there."""
+    """Running until the end of the with block. What the board's console says is kept, and said when something fails. card: the serial ports are there. in_sensor: an image with its head beside it."""
 
-    def __init__(self, elf, image, folder, board=PPC603E, rig=True, processor=None, ticks_per_s=None, shared=False, card=True):
+    def __init__(self, elf, image, folder, board=PPC603E, rig=True, processor=None, ticks_per_s=None, shared=False, card=True, in_sensor=False):
         require(board)
         board.check_image(elf)
         self.board = board
         self.folder = pathlib.Path(folder)
         self.console_file = self.folder / 'console.txt'
         words = [STRAPS_MAGIC, ticks_per_s or board.ticks_per_s, 1 if rig else 0, 0]
-        self.command = [*board.machine(self.folder, processor, ',memory-backend=ram' if shared else ''),
+        self.command = [*board.machine(self.folder, processor, ',memory-backend=ram' if shared or in_sensor else ''),
                         '-monitor', f'unix:{self.folder}/monitor.sock,server=on,wait=off', '-icount', f'shift={SHIFT},align=off,sleep=on']
         for name in ('camera', 'ground', 'rig'):
             self.command += ['-chardev', f'socket,id={name},path={self.folder}/{name}.sock' if rig else f'null,id={name}']
-        self.command += ['-chardev', f'file,id=console,mux=on,path={self.console_file}', *board.ports(card), '-device', f'loader,file={elf},cpu-num=0']
-        if shared:  # memory as a file, whose content is that of fresh memory, and a debug port (ft/pil/seu_board.hpp)
+        self.command += ['-chardev', f'file,id=console,mux=on,path={self.console_file}', *board.ports(IN_SENSOR_PORTS if in_sensor else PORTS, card), '-device', f'loader,file={elf},cpu-num=0']
+        if shared or in_sensor:  # memory as a file, whose content is that of fresh memory
             (self.folder / 'ram.bin').unlink(missing_ok=True)
-            self.command += ['-object', f'memory-backend-file,id=ram,size=256M,mem-path={self.folder}/ram.bin,share=on', '-gdb', f'unix:{self.folder}/gdb.sock,server=on,wait=off']
+            self.command += ['-object', f'memory-backend-file,id=ram,size=256M,mem-path={self.folder}/ram.bin,share=on']
+        if shared:  # and a debug port (ft/pil/seu_board.hpp)
+            self.command += ['-gdb', f'unix:{self.folder}/gdb.sock,server=on,wait=off']
         if image:
             self.command += ['-device', f'loader,file={image},addr={board.mission:#x},force-raw=on']
         (self.folder / 'straps.bin').write_bytes(b''.join(word.to_bytes(4, board.order) for word in words))
@@ -253,6 +255,8 @@ class Rig:
 def fly(program, elf, arguments, folder, seconds, board=PPC603E, linked=False, progress=None, **options):
     """One run of the rig with an emulated board; exit code, words, console. linked: the mission's image is in the board's. progress: is told of each frame."""
     os.makedirs(folder, exist_ok=True)
+    if options.get('in_sensor'):
+        arguments = [*arguments, f'head={board.head(elf)}', f'memory={board.ram}']
     emulator = Emulator(elf, None if linked else f'{folder}/image.3dli', folder, board, **options)
     with Rig(program, [*arguments, f'code={board.code_bytes(elf)}'], seconds, progress) as rig:
         rig.await_ready()

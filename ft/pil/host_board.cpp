@@ -5,6 +5,7 @@
 #include "fsw/exec/link_pump.hpp"
 #include "fsw/exec/start_image.hpp"
 #include "ft/pil/boards.hpp"
+#include "hal_lcs/head_driver.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
 
@@ -33,13 +34,12 @@ class MemoryLink final : public ByteLink {
 
 // The component, wired as on the target.
 struct Host {
-  Host(const std::vector<std::uint8_t>& bytes, std::size_t code_bytes)
+  Host(const std::vector<std::uint8_t>& bytes, std::size_t code_bytes, Head head)
       : buffers{std::vector<std::uint64_t>(bytes.size() / 8 + 1), std::vector<std::uint64_t>(bytes.size() / 8 + 1)},
         region(bare::RamStore::region_bytes(bytes.size())),
         store({region.data(), region.size()}, bytes.size(), [](ConstBytes) {}),
         code(code_bytes),
-        driver(line, lcs::Optics(calibration())),
-        component(std::make_unique<Component>(driver)) {
+        component(std::make_unique<Component>(sensor(head))) {
     BoardMemory memory;
     for (std::size_t i = 0; i < 2; ++i) memory.image_buffers[i] = mdat::view(buffers[i], bytes.size());
     memory.store = &store;
@@ -52,6 +52,11 @@ struct Host {
     lcs::Calibration design;
     design.serial = 1;
     return design;
+  }
+
+  Sensor& sensor(Head head) {
+    if (head == Head::kAtLine) return line_driver;
+    return head_driver;
   }
 
   void meet(World& world, std::uint32_t slot) {
@@ -80,7 +85,9 @@ struct Host {
   bare::RamStore store;
   std::vector<std::uint8_t> code;  // as much as the target has: the scrub's pass takes as long
   lcs::Line line;
-  lcs::Driver driver;
+  lcs::Driver line_driver{line, lcs::Optics(calibration())};
+  lcs::HeadMemory head_memory;
+  lcs::HeadDriver head_driver{head_memory, lcs::Optics(calibration())};
   std::unique_ptr<Component> component;
   MemoryLink link;
   LinkPump pump{*component, link};
@@ -88,9 +95,9 @@ struct Host {
 
 }  // namespace
 
-Packet fly_on_host(const WorldSetup& setup, const HostMemory& memory, std::uint32_t frames, const Told& told) {
-  World world(setup);
-  Host host(memory.image, memory.code_bytes);
+Packet fly_on_host(const WorldSetup& setup, const HostMemory& memory, Head head, std::uint32_t frames, const Told& told) {
+  Host host(memory.image, memory.code_bytes, head);
+  World world(setup, head == Head::kAtLine ? nullptr : &host.head_memory);
   for (std::uint32_t slot = 0; slot < frames * kSlotsPerFrame; ++slot) {
     host.meet(world, slot);
     host.run_slot();

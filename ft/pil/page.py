@@ -3,7 +3,7 @@ import html as text
 
 from platform_limits import limit
 
-NUMBERS = {'float': 'floating point', 'fixed': 'fixed point', 'cortexa9': 'floating point, Cortex-A9'}
+NUMBERS = {'float': 'floating point', 'fixed': 'fixed point', 'cortexa9': 'floating point, Cortex-A9', 'in_sensor': 'floating point, the head beside it', 'in_sensor_cortexa9': 'floating point, Cortex-A9, the head beside it'}
 STAGES = [('estimate', 'estimate'), ('boundary', 'boundary: publish, hand over, plan'), ('polls', 'polls of the camera, 19 slots'),
           ('largest_poll', 'the largest of them'), ('lines', 'interrupts of the lines, in no slot')]
 WHOLE = ('whole', 'the whole frame, entries of interrupts and loops of the background, too')

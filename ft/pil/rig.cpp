@@ -1,13 +1,15 @@
-// pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [store=ADDRESS] [whole] [memory=ADDRESS] [starts=N] [code=BYTES] [quiet=S]
-// [limit=S] [points=N] [progress]: flies a scenario on the host, then on the board behind OUT/camera.sock, OUT/ground.sock and
+// pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [store=ADDRESS] [whole] [memory=ADDRESS] [starts=N] [code=BYTES] [head=ADDRESS]
+// [quiet=S] [limit=S] [points=N] [progress]: flies a scenario on the host, then on the board behind OUT/camera.sock, OUT/ground.sock and
 // OUT/rig.sock, and compares their telemetry bit by bit. Says `ready` when the board may be started: the mission's image is then in
 // OUT/image.3dli. Leaves OUT/host.ccsds, OUT/target.ccsds, OUT/starts.csv and OUT/slots.csv (the board's reports, words by name). cut: the
 // camera's line ends after so many bytes. noise: the ground's begins with some. store: three starts try the store (store_story.hpp), the
 // first image buffer being at ADDRESS. whole: what they load is as large as what flies. memory: where the board's begins, 0. starts: so
 // many starts of the board are awaited, and the flight on the host left out. code: so much code the board watches, and the host beside it.
-// quiet: seconds of the host for which nothing may move on the lines, 30. limit: seconds that all of it may take, 3600. points: rays of a
-// scan, of which a mission's own may be too many for the board. progress: a line `frame` on standard error for each frame that is done, on
-// the host and on the board, instead of a bar for people. Exit codes: 0 the same bits, 1 not, or the board failed, 2 usage or bad input.
+// head: the board has its head beside it, and shares memory with it at ADDRESS (docs/in-sensor.md), the host likewise; telemetry has
+// to be that of a flight of the host with a camera at its line, too. quiet: seconds of the host for which nothing may move on the
+// lines, 30. limit: seconds that all of it may take, 3600. points: rays of a scan, of which a mission's own may be too many for the board.
+// progress: a line `frame` on standard error for each frame that is done, on the host and on the board, instead of a bar for people. Exit
+// codes: 0 the same bits, 1 not, or the board failed, 2 usage or bad input.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -44,9 +46,10 @@ struct Options {
   std::size_t code_bytes = 0;
   std::optional<std::uint64_t> cut;
   bool noise = false;
-  std::uint32_t store = 0;   // where the first image buffer is; 0: it is not tried
-  bool whole = false;        // the image that is loaded is a mission's own
-  std::uint32_t memory = 0;  // where the board's memory begins
+  std::uint32_t store = 0;            // where the first image buffer is; 0: it is not tried
+  bool whole = false;                 // the image that is loaded is a mission's own
+  std::uint32_t memory = 0;           // where the board's memory begins
+  std::optional<std::uint32_t> head;  // address of the memory that the board shares with its head
   std::chrono::seconds quiet{30}, limit{3600};
   std::uint32_t points = 0;  // rays of a scan; 0: the mission's
   bool progress = false;
@@ -68,6 +71,7 @@ void take(const std::string& word, Options& options) {
       {"memory", [](const std::string& value, Options& of) { of.memory = count_of<std::uint32_t>("memory", value); }},
       {"starts", [](const std::string& value, Options& of) { of.starts = count_of<std::uint32_t>("starts", value, 1); }},
       {"code", [](const std::string& value, Options& of) { of.code_bytes = count_of<std::uint32_t>("code", value); }},
+      {"head", [](const std::string& value, Options& of) { of.head = count_of<std::uint32_t>("head", value); }},
       {"quiet", [](const std::string& value, Options& of) { of.quiet = seconds_of("quiet", value); }},
       {"limit", [](const std::string& value, Options& of) { of.limit = seconds_of("limit", value); }},
       {"points", [](const std::string& value, Options& of) { of.points = count_of<std::uint32_t>("points", value, 1); }},
@@ -83,8 +87,7 @@ Options parse(int argc, char** argv) {
   if (argc < 5)
     throw mdat::InputError(
         "usage: pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [store=ADDRESS] [whole] [memory=ADDRESS] [starts=N] [code=BYTES] "
-        "[quiet=S] "
-        "[limit=S] [points=N] [progress]");
+        "[head=ADDRESS] [quiet=S] [limit=S] [points=N] [progress]");
   Options options;
   options.mission = argv[1];
   options.scenario = argv[2];
@@ -186,16 +189,21 @@ void tell(const Packet& telemetry) {
               count_of("refused"), count_of("pong"), last("link", "laser_enabled", -1), last("link", "skipped_bytes", -1));
 }
 
+// Whether the board has said what `host`, a flight that `what` names, has; told to people.
+int judge(const char* what, const Packet& host, const Packet& board) {
+  const std::string wrong = difference(host, board);
+  if (wrong.empty()) std::printf("same%s: %zu bytes of telemetry\n", what, host.size());
+  if (!wrong.empty()) std::printf("differs%s: %s\n", what, wrong.c_str());
+  return wrong.empty() ? mdat::kExitDone : mdat::kExitFailed;
+}
+
 int compare(const Options& options, const Packet& host, const TargetFlight& flight) {
   for (const Packet& telemetry : flight.telemetry) {
     tell(telemetry);
     if (options.store != 0) std::printf("%s\n", told_of_store(telemetry).c_str());
   }
   if (options.starts > 1) return mdat::kExitDone;
-  const std::string wrong = difference(host, flight.telemetry.back());
-  if (wrong.empty()) std::printf("same: %zu bytes of telemetry\n", host.size());
-  if (!wrong.empty()) std::printf("differs: %s\n", wrong.c_str());
-  return wrong.empty() ? mdat::kExitDone : mdat::kExitFailed;
+  return judge("", host, flight.telemetry.back());
 }
 
 // The image that the ground loads: of a box, small, and of another mission; or as the one that flies, with another parameter.
@@ -221,6 +229,12 @@ WorldSetup setup_of(const Options& options, const mdat::CompiledMission& mission
   return setup;
 }
 
+std::optional<std::size_t> place_of_head(const Options& options) {
+  if (!options.head) return std::nullopt;
+  if (*options.head < options.memory) throw mdat::InputError("head: below the board's memory (memory=)");
+  return *options.head - options.memory;
+}
+
 int run(const Options& options) {
   const Patience patience{options.quiet, std::chrono::steady_clock::now() + options.limit};
   const mdat::CompiledMission mission = mdat::compile_mission(options.mission);
@@ -236,22 +250,26 @@ int run(const Options& options) {
   const Ground ground = [&](std::uint32_t start, std::uint32_t slot, std::uint16_t& count) {
     return story ? story->commands(start, slot, count) : Packet{};
   };
-  Packet host;
-  if (options.starts == 1) {
+  const auto fly_host = [&](Head head) {
     FlightProgress bar("fly on the host", frames, options.progress);
-    host = fly_on_host(setup, {image, options.code_bytes}, frames, [&](std::uint32_t done) { bar.show(done); });
+    const Packet said = fly_on_host(setup, {image, options.code_bytes}, head, frames, [&](std::uint32_t done) { bar.show(done); });
     bar.finish();
-  }
+    return said;
+  };
+  const Packet host = options.starts == 1 ? fly_host(options.head ? Head::kBesideProcessor : Head::kAtLine) : Packet{};
   write(options.out + "/host.ccsds", host);
   FlightProgress bar("fly on the board", frames, options.progress);
   const TargetFlight flight = fly_on_target(
-      setup, {options.out, frames, options.starts, patience}, tell_ready, [&](std::uint32_t done) { bar.show(done); }, ground);
+      setup, {options.out, frames, options.starts, patience, place_of_head(options)}, tell_ready,
+      [&](std::uint32_t done) { bar.show(done); }, ground);
   bar.finish();
   if (story) std::printf("damaged word: %s\n", story->repaired() ? "repaired" : "as it was damaged");
   write(options.out + "/target.ccsds", flight.telemetry.back());
   mdat::write_file(options.out + "/starts.csv", csv(flight.starts));
   mdat::write_file(options.out + "/slots.csv", csv(flight.slots));
-  return compare(options, host, flight);
+  const int same = compare(options, host, flight);
+  if (!options.head) return same;
+  return std::max(same, judge(", with a camera at a line", fly_host(Head::kAtLine), flight.telemetry.back()));
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""run.py HOST BOARD FIXED_HOST FIXED_BOARD CORTEXA9 [FRAMES]: the component on the emulated boards, with the simulated camera and the ground at its lines (docs/pil.md).
+"""run.py HOST BOARD FIXED_HOST FIXED_BOARD CORTEXA9 [FRAMES [FLIGHT]]: the component on the emulated boards, with the simulated camera and the ground at its lines (docs/pil.md).
 
-All are build folders: of the PowerPC 603e and its host, of both in fixed point, and of the Cortex-A9. Flies FRAMES frames (360) on each host and board, at a time, compares
+All are build folders: of the PowerPC 603e and its host, of both in fixed point, and of the Cortex-A9. FLIGHT in_sensor flies the image with its head beside it
+instead, on the 603e alone (docs/in-sensor.md), for which the first two folders are enough. Flies FRAMES frames (360) on each host and board, at a time, compares
 the telemetry bit by bit, and leaves instructions, margins and stacks in out/pil: results.json, report.html, summary.json, which says that fewer frames are a sample. Exit codes: 0 the
 same bits, within the limits; 1 not; 2 usage.
 """
@@ -27,11 +28,13 @@ from progress import Progress  # noqa: E402
 WHOLE_FRAMES, MOST_FRAMES = 360, 100_000  # LASSO-PLT-014
 MISSION, SCENARIO, SLOTS, PERIOD_MS = 'cfg/missions/hubble_tenth.toml', 'spin', 20, 200
 # Of each flight: its number type and board; where make prove leaves the bounds of its stacks, where it does.
-NUMBERS = {'float': 'float', 'fixed': 'fixed', 'cortexa9': 'float'}
-BOARDS = {'float': PPC603E, 'fixed': PPC603E, 'cortexa9': CORTEXA9}
-PROOFS = {'float': 'prove', 'fixed': 'fixed-point/prove'}
+FLIGHTS = 'float', 'fixed', 'cortexa9'  # of a run; in_sensor is one by itself, on the second board in samples alone
+IN_SENSOR = 'in_sensor', 'in_sensor_cortexa9'
+NUMBERS = {'float': 'float', 'fixed': 'fixed', 'cortexa9': 'float', 'in_sensor': 'float', 'in_sensor_cortexa9': 'float'}
+BOARDS = {'float': PPC603E, 'fixed': PPC603E, 'cortexa9': CORTEXA9, 'in_sensor': PPC603E, 'in_sensor_cortexa9': CORTEXA9}
+PROOFS = {'float': 'prove', 'fixed': 'fixed-point/prove', 'in_sensor': 'prove'}  # of all drivers, whose stack counts as the interface's
 PIPELINE_FRAMES = 2  # of the rig's
-IDLE_HELD = ('float',)  # LASSO-PLT-016: fixed point is for a processor without a floating-point unit (docs/pil.md)
+IDLE_HELD = 'float', 'in_sensor'  # LASSO-PLT-016: fixed point is for a processor without a floating-point unit (docs/pil.md)
 VALID = re.compile(r'\d+ poses, (\d+) valid')
 FRAME_INSTRUCTIONS = PERIOD_MS * 1000 * MIPS
 # Of an estimate's instructions, in fixed point half a frame.
@@ -199,11 +202,15 @@ def results_of(gate, number, elf, out, said, frames):
     return results | {'scenario': SCENARIO, 'telemetry': said, 'frames_asked': frames, 'valid_poses': int(VALID.search(said)[1])}, flown
 
 
+def kind_of(number):
+    return 'in_sensor' if number in IN_SENSOR else 'flight'
+
+
 def fly(gate, number, host, board, frames, progress):
     """One flight on the host and on the board."""
-    elf, out = BOARDS[number].image(board), gate.out / number
+    elf, out = BOARDS[number].image(board, kind_of(number)), gate.out / number
     check_number(gate, number, elf)
-    code, said, machine = emulator.fly(f'{host}/ft/pil/pil_rig', elf, [MISSION, SCENARIO, frames, out], out, emulator.seconds_for(frames), BOARDS[number], progress=progress)
+    code, said, machine = emulator.fly(f'{host}/ft/pil/pil_rig', elf, [MISSION, SCENARIO, frames, out], out, emulator.seconds_for(frames), BOARDS[number], progress=progress, in_sensor=number in IN_SENSOR)
     if code != 0:
         gate.stop(f'{number}: {said or "the board failed"} ({machine.said()})')
     return results_of(gate, number, elf, out, said, frames)
@@ -211,7 +218,8 @@ def fly(gate, number, host, board, frames, progress):
 
 def fly_all(gate, flights, frames):
     """One beside the other, with one progress: a line of each would overwrite the others'. The first that fails ends all."""
-    progress = Progress('fly', len(flights) * 2 * (frames + PIPELINE_FRAMES), 'frames on hosts and boards')
+    flown = sum(3 if number in IN_SENSOR else 2 for number in flights)  # that one's host flies with a camera at its line, too
+    progress = Progress('fly', flown * (frames + PIPELINE_FRAMES), 'frames on hosts and boards')
     with concurrent.futures.ThreadPoolExecutor(initializer=emulator.leave_endings_to_main) as pool:
         jobs = {number: pool.submit(fly, gate, number, *folders, frames, progress) for number, folders in flights.items()}
         try:
@@ -223,13 +231,23 @@ def fly_all(gate, flights, frames):
         return {number: job.result() for number, job in jobs.items()}
 
 
-def main(host, board, fixed_host, fixed_board, cortexa9, frames=str(WHOLE_FRAMES)):
+def flights_of(gate, flight, host, board, fixed_host, fixed_board, cortexa9):
+    """Folders of host and board."""
+    if flight == 'in_sensor':
+        return {'in_sensor': (host, board)}
+    if flight:
+        gate.stop(f'FLIGHT={flight}: no such flight: in_sensor, or none')
+    return dict(zip(FLIGHTS, ((host, board), (fixed_host, fixed_board), (host, cortexa9))))
+
+
+def main(host, board, fixed_host, fixed_board, cortexa9, frames=str(WHOLE_FRAMES), flight=''):
     emulator.end_with_children()
     with gates.Gate('pil') as gate:
         frames = gate.number('FRAMES', frames, MOST_FRAMES, WHOLE_FRAMES)
         try:
-            version = ' and '.join(dict.fromkeys(emulator.require(board) for board in (PPC603E, CORTEXA9)))
-            flights = fly_all(gate, {'float': (host, board), 'fixed': (fixed_host, fixed_board), 'cortexa9': (host, cortexa9)}, frames)
+            asked = flights_of(gate, flight, host, board, fixed_host, fixed_board, cortexa9)
+            version = ' and '.join(dict.fromkeys(emulator.require(BOARDS[number]) for number in asked))
+            flights = fly_all(gate, asked, frames)
         except emulator.Failure as failure:
             gate.stop(str(failure))
         results = {'emulator': f'QEMU {version}', 'commit': gates.commit()} | {number: r for number, (r, _) in flights.items()}
@@ -241,7 +259,7 @@ def main(host, board, fixed_host, fixed_board, cortexa9, frames=str(WHOLE_FRAMES
 
 
 if __name__ == '__main__':
-    if {'-h', '--help'} & set(sys.argv) or not 6 <= len(sys.argv) <= 7:
+    if {'-h', '--help'} & set(sys.argv) or not 6 <= len(sys.argv) <= 8:
         print(__doc__)
         sys.exit(0 if {'-h', '--help'} & set(sys.argv) else 2)
     main(*sys.argv[1:])

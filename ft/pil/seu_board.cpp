@@ -1,9 +1,5 @@
 #include "ft/pil/seu_board.hpp"
 
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -16,7 +12,6 @@
 namespace lasso::pil {
 namespace {
 
-constexpr std::size_t kRamBytes = 256U << 20;
 constexpr int kStartPatience_s = 60;
 
 Range only(const Places& places, const std::string& name) {
@@ -48,10 +43,6 @@ SeuBoard::SeuBoard(std::string folder, const Places& places, std::function<void(
       constants_{only(places, "code"), only(places, "vectors"), only(places, "image"), only(places, "stored_image"),
                  only(places, "stored_header")} {}
 
-SeuBoard::~SeuBoard() {
-  if (ram_ != nullptr) (void)munmap(ram_, kRamBytes);
-}
-
 void SeuBoard::begin() {
   for (std::optional<Line>* line : {&camera_, &ground_, &rig_}) line->emplace();
   camera_->listen(folder_, "camera");
@@ -60,19 +51,10 @@ void SeuBoard::begin() {
   start_emulator_();
   for (std::optional<Line>* line : {&camera_, &ground_, &rig_}) (*line)->await();
   gdb_.connect(folder_ + "/gdb.sock");
-  map_memory();
+  ram_ = shared_.map(folder_);
   gdb_.go_on();
   const std::optional<Said> said = await(kStartPatience_s);
   if (!said || !said->begun) throw mdat::RunError("the board does not begin");
-}
-
-void SeuBoard::map_memory() {
-  if (ram_ != nullptr) (void)munmap(ram_, kRamBytes);
-  const int fd = open((folder_ + "/ram.bin").c_str(), O_RDWR | O_CLOEXEC);
-  void* mapped = fd < 0 ? MAP_FAILED : mmap(nullptr, kRamBytes, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
-  if (fd >= 0) (void)close(fd);
-  if (mapped == MAP_FAILED) throw mdat::RunError(folder_ + "/ram.bin: the board's memory cannot be mapped");
-  ram_ = static_cast<std::uint8_t*>(mapped);
 }
 
 void SeuBoard::keep_constants() {

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "ft/pil/board_ram.hpp"
 #include "ft/pil/gdb_stub.hpp"
 #include "ft/pil/line.hpp"
 
@@ -41,7 +42,6 @@ class SeuBoard {
  public:
   // Emulators come and go in `folder`; ram.bin is their memory.
   SeuBoard(std::string folder, const Places& places, std::function<void()> start_emulator);
-  ~SeuBoard();
   SeuBoard(const SeuBoard&) = delete;
   SeuBoard& operator=(const SeuBoard&) = delete;
 
@@ -67,7 +67,6 @@ class SeuBoard {
 
  private:
   Bytes bytes_of(const Range& range) const { return {ram_ + range.address, range.bytes}; }
-  void map_memory();
   void restore_constants();
 
   std::string folder_;
@@ -75,6 +74,7 @@ class SeuBoard {
   Range memory_, stack_, log_;
   std::vector<Range> constants_;
   std::vector<Packet> kept_constants_;
+  BoardRam shared_;
   std::uint8_t* ram_ = nullptr;
   std::optional<Line> camera_, ground_, rig_;
   GdbStub gdb_;

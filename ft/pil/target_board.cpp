@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include "fsw/core/invariant.hpp"
 #include "fsw/exec/executive.hpp"
+#include "ft/pil/board_ram.hpp"
 #include "ft/pil/boards.hpp"
 #include "ft/pil/line.hpp"
 #include "mdat/common/errors.hpp"
@@ -93,8 +95,16 @@ class Target {
     throw mdat::RunError(why + "; awaited was " + awaited + where + ": " + advice);
   }
 
+  // The emulator makes the memory after its lines; a board that reports has it.
+  void map_head() {
+    if (!run_.head || head_ != nullptr) return;
+    invariant(*run_.head + sizeof(lcs::HeadMemory) <= kRamBytes, "the head's memory is none of the board's");
+    head_ = reinterpret_cast<lcs::HeadMemory*>(ram_.map(run_.folder) + *run_.head);
+  }
+
   void begin_anew() {
-    world_.emplace(setup_);
+    map_head();
+    world_.emplace(setup_, head_);
     slot_ = 0;
     camera_.count_anew();
     ground_.count_anew();
@@ -105,6 +115,8 @@ class Target {
   std::optional<World> world_;
   std::uint32_t slot_ = 0;
   Packet to_camera_;
+  BoardRam ram_;
+  lcs::HeadMemory* head_ = nullptr;
   Line camera_, ground_, rig_;
 };
 

@@ -27,12 +27,14 @@ Packet noise() {
 
 }  // namespace
 
-World::World(const WorldSetup& setup)
+World::World(const WorldSetup& setup, lcs::HeadMemory* head)
     : setup_(setup),
       period_us_(mdat::period_us(setup.flight.parameters)),
       motion_(mdat::make_trajectory(setup.flight.scenario, setup.flight.range_m, mdat::kEpochUs, period_us_)),
       camera_(mdat::camera_for(setup.flight, model_of(setup.flight), 0)),
-      device_(*setup.flight.target, *motion_, model_of(setup.flight), setup.flight.seed, camera_) {}
+      device_(*setup.flight.target, *motion_, model_of(setup.flight), setup.flight.seed, camera_),
+      own_head_(*setup.flight.target, *motion_, model_of(setup.flight), setup.flight.seed, camera_),
+      head_(head) {}
 
 TimeUs World::slot_us(std::uint32_t slot) const {
   const TimeUs boundary_us = mdat::kEpochUs + slot / kSlotsPerFrame * period_us_;
@@ -41,8 +43,9 @@ TimeUs World::slot_us(std::uint32_t slot) const {
 
 void World::move_to(std::uint32_t slot, ConstBytes to_camera) {
   invariant(line_.to_camera.write(to_camera) == to_camera.size(), "more bytes than the camera's line carries in a slot");
-  if (slot > 0) device_.listen(slot_us(slot - 1), line_);
-  device_.run(slot_us(slot), line_);
+  if (head_ != nullptr) own_head_.run(slot_us(slot), *head_);
+  if (head_ == nullptr && slot > 0) device_.listen(slot_us(slot - 1), line_);
+  if (head_ == nullptr) device_.run(slot_us(slot), line_);
   if (slot == 0) {
     if (setup_.ground_noise) append(ground_, noise());
     append(ground_, mdat::arm_for(mdat::command_row("enable_laser"), commands_++));

@@ -1,5 +1,5 @@
-// Everything around the board: the simulated camera at the end of its line, and the ground, which enables the laser and asks now and then
-// whether anybody is there. It moves from slot to slot as it is told; it has no clock.
+// Everything around the board: the simulated camera at the end of its line, or the head beside the processor, and the ground, which enables
+// the laser and asks now and then whether anybody is there. It moves from slot to slot as it is told; it has no clock.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "hal_lcs/driver.hpp"
+#include "hal_lcs/head_memory.hpp"
 #include "hal_sim/lcs_device.hpp"
+#include "hal_sim/memory_head.hpp"
 #include "mdat/run/camera.hpp"
 #include "mdat/run/case.hpp"
 
@@ -24,7 +26,8 @@ struct WorldSetup {
 
 class World {
  public:
-  explicit World(const WorldSetup& setup);
+  // `head`, which may be null: where the head beside the processor meets it; the camera's line then stays silent. It outlives this.
+  explicit World(const WorldSetup& setup, lcs::HeadMemory* head = nullptr);
 
   TimeUs slot_us(std::uint32_t slot) const;  // since boundary 0, whose number is 0
   // Slot `slot` comes next: what the camera and the ground have said by then. Nothing has been sent to either before slot 0 but by a start.
@@ -39,6 +42,8 @@ class World {
   std::unique_ptr<sim::Trajectory> motion_;
   sim::LcsCamera camera_;
   sim::LcsDevice device_;
+  sim::MemoryHead own_head_;
+  lcs::HeadMemory* head_;
   lcs::Line line_;
   std::uint64_t carried_ = 0;
   std::uint16_t commands_ = 0;

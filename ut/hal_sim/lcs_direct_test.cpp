@@ -7,148 +7,60 @@
 #include <vector>
 
 #include "hal_sim/lcs_device.hpp"
-#include "ut/hal_sim/shapes.hpp"
+#include "ut/hal_sim/head_scene.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso::sim {
 namespace {
 
-constexpr std::uint64_t kSeed = 5;
-constexpr TimeUs kStartUs = 3'000'000;
-
-LcsCamera head(lcs::Device device) {
-  LcsCamera camera;
-  camera.device = device;
-  camera.truth.serial = camera.clock.serial = 3;
-  camera.truth.angle_x_offset_rad = camera.clock.angle_x_offset_rad = 0.001;
-  camera.truth.residual[4] = 2e-3;
-  camera.truth.focal_length_per_K = 3e-5;
-  camera.truth.depth_max_m = 4.1;  // some of the box is beside it
-  camera.clock.delay_us = 0.01;
-  camera.temperature_degC = 31;
-  camera.hand_over_m = 3.9;
-  return camera;
-}
-
-ScannerModel noisy() {
-  ScannerModel model;
-  model.sigma0_m = 1e-4;
-  model.sigma_k_per_m = 1e-4;
-  model.sigma_angle_rad = 1e-4;
-  model.dropout_probability = 0.1;
-  model.outlier_probability = 0.05;
-  model.range_min_m = 3.8;  // some of it is too near
-  return model;
-}
-
-// In front of a box that turns and moves.
-struct Scene {
-  test::ShapeMesh mesh = test::box_mesh(Vec3(0.66, 0.21, 0.3));
-  std::unique_ptr<RayCaster> caster = make_ray_caster(mesh.vertices, mesh.triangles);
-  ConstantTwist motion{
-      {{upright_attitude(0.26, 0.09) * exp_so3(Vec3(0.7, 0, 0)), Vec3(0.02, -0.01, 4)}, {Vec3(0.1, -0.2, 0.15), Vec3(0.02, 0.01, -0.05)}},
-      kStartUs};
-};
-
-AimedRays aimed_rays() {
-  AimedRays rays;
-  for (int i = 0; i < 100; ++i) static_cast<void>(rays.push_back({0.0012F * static_cast<float>(i) - 0.06F, 0.02F}));
-  return rays;
-}
-
-// Nothing of it lies on a grid.
-ScanPlan plan_of(std::uint32_t scan_id, const AimedRays& aimed) {
-  ScanPlan plan;
-  plan.scan_id = scan_id;
-  plan.phase_turns = 0.38196601125;
-  plan.center_x = 0.0123456789;
-  plan.half_x = 0.1512345;
-  plan.half_y = 0.1987654;
-  plan.aimed = aimed.span();
-  return plan;
-}
-
-std::vector<RangeSample> scan(Sensor& sensor, const ScanPlan& plan, TimeUs t_start_us) {
-  std::vector<RangeSample> samples, buffer(kMaxSamplesPerPoll);
-  EXPECT_EQ(sensor.start(plan, t_start_us), Status::kOk);
-  bool complete = false;
-  for (TimeUs now_us = t_start_us; !complete && now_us < t_start_us + 195'000; now_us += 5'000) {
-    const SensorPoll poll = sensor.poll(now_us, {buffer.data(), buffer.size()});
-    EXPECT_EQ(poll.status, Status::kOk);
-    samples.insert(samples.end(), buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(poll.count));
-    complete = poll.complete;
-  }
-  EXPECT_TRUE(complete);
-  return samples;
-}
-
-void expect_same(const std::vector<RangeSample>& a, const std::vector<RangeSample>& b) {
-  ASSERT_EQ(a.size(), b.size());
-  std::size_t hits = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    ASSERT_EQ(a[i].state, b[i].state) << i;
-    ASSERT_EQ(a[i].range_m, b[i].range_m) << i;
-    ASSERT_EQ(a[i].t_us, b[i].t_us) << i;
-    ASSERT_EQ(a[i].sigma_factor, b[i].sigma_factor) << i;
-    for (int k = 0; k < 3; ++k) ASSERT_EQ(a[i].direction[k], b[i].direction[k]) << i;
-    hits += a[i].state == RayState::kHit;
-  }
-  EXPECT_GT(hits, a.size() / 8);
-}
-
 class Direct : public ::testing::TestWithParam<lcs::Device> {};
 class Calibrated : public Direct {};  // heads that have a calibration: the LIDAR has none
 
-std::string name_of(const ::testing::TestParamInfo<lcs::Device>& info) {
-  if (info.param == lcs::Device::kLidar) return "lidar";
-  return info.param == lcs::Device::kTridar ? "tridar" : "laser_camera";
-}
-
 TEST_P(Direct, GivesTheBitsThatTheLineBrings) {
   VERIFIES("LASSO-LCS-010~4");
-  const Scene scene;
-  const LcsCamera camera = head(GetParam());
-  LcsDevice device(*scene.caster, scene.motion, noisy(), kSeed, camera);
+  const HeadScene scene;
+  const LcsCamera camera = head_of(GetParam());
+  LcsDevice device(*scene.caster, scene.motion, noisy_head(), kHeadSeed, camera);
   LcsOverLine line(device, optics_of(camera), camera.bits_per_s);
   line.permit_laser(true);
-  LcsDirect direct(*scene.caster, scene.motion, noisy(), kSeed, camera);
-  const AimedRays aimed = aimed_rays();
+  LcsDirect direct(*scene.caster, scene.motion, noisy_head(), kHeadSeed, camera);
+  const AimedRays aimed = aimed_row();
   for (std::uint32_t k = 0; k < 3; ++k) {  // of which the first has to light the laser
-    const TimeUs t_us = kStartUs + k * 200'000;
-    expect_same(scan(direct, plan_of(k, aimed), t_us), scan(line, plan_of(k, aimed), t_us));
+    const TimeUs t_us = kHeadStartUs + k * 200'000;
+    expect_same_samples(whole_scan(direct, odd_plan(k, aimed), t_us), whole_scan(line, odd_plan(k, aimed), t_us));
   }
 }
 
 TEST_P(Calibrated, GoesByTheCalibrationThatItIsGiven) {
   VERIFIES("LASSO-LCS-010~4 LASSO-LCS-007~2");
-  const Scene scene;
-  const LcsCamera camera = head(GetParam());
+  const HeadScene scene;
+  const LcsCamera camera = head_of(GetParam());
   TriangulationCalibration other = camera.truth;
   other.baseline_m *= 1.001;
-  LcsDevice device(*scene.caster, scene.motion, noisy(), kSeed, camera);
+  LcsDevice device(*scene.caster, scene.motion, noisy_head(), kHeadSeed, camera);
   LcsOverLine line(device, optics_of(camera), camera.bits_per_s);
-  LcsDirect direct(*scene.caster, scene.motion, noisy(), kSeed, camera);
+  LcsDirect direct(*scene.caster, scene.motion, noisy_head(), kHeadSeed, camera);
   line.permit_laser(true);
   line.use_calibration(&other);
   direct.use_calibration(&other);
   const AimedRays none;
-  const std::vector<RangeSample> calibrated = scan(direct, plan_of(0, none), kStartUs);
-  expect_same(calibrated, scan(line, plan_of(0, none), kStartUs));
+  const std::vector<RangeSample> calibrated = whole_scan(direct, odd_plan(0, none), kHeadStartUs);
+  expect_same_samples(calibrated, whole_scan(line, odd_plan(0, none), kHeadStartUs));
   direct.use_calibration(nullptr);
-  const std::vector<RangeSample> made = scan(direct, plan_of(0, none), kStartUs);
+  const std::vector<RangeSample> made = whole_scan(direct, odd_plan(0, none), kHeadStartUs);
   std::size_t moved = 0;
   for (std::size_t i = 0; i < made.size(); ++i) moved += made[i].range_m != calibrated[i].range_m;
   EXPECT_GT(moved, 100U);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Direct, ::testing::Values(lcs::Device::kLaserCamera, lcs::Device::kLidar, lcs::Device::kTridar), name_of);
-INSTANTIATE_TEST_SUITE_P(All, Calibrated, ::testing::Values(lcs::Device::kLaserCamera, lcs::Device::kTridar), name_of);
+INSTANTIATE_TEST_SUITE_P(All, Direct, ::testing::Values(lcs::Device::kLaserCamera, lcs::Device::kLidar, lcs::Device::kTridar), device_name);
+INSTANTIATE_TEST_SUITE_P(All, Calibrated, ::testing::Values(lcs::Device::kLaserCamera, lcs::Device::kTridar), device_name);
 
 TEST(LcsDirect, RefusesOpticsThatAreNotValid) {
-  const Scene scene;
-  LcsCamera bad = head(lcs::Device::kLaserCamera);
+  const HeadScene scene;
+  LcsCamera bad = head_of(lcs::Device::kLaserCamera);
   bad.truth.baseline_m = 0;
-  EXPECT_THROW(LcsDirect(*scene.caster, scene.motion, noisy(), kSeed, bad), std::invalid_argument);
+  EXPECT_THROW(LcsDirect(*scene.caster, scene.motion, noisy_head(), kHeadSeed, bad), std::invalid_argument);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "fsw/sense/pattern.hpp"
 #include "hal_sim/lcs_device.hpp"
 #include "hal_sim/lcs_direct.hpp"
+#include "hal_sim/memory_head.hpp"
 #include "hal_sim/ray_caster.hpp"
 #include "hal_sim/replay_sensor.hpp"
 #include "hal_sim/scanner.hpp"
@@ -101,6 +102,20 @@ Rig over_the_line(const Target& target, double bits_per_s, lcs::Device device = 
   camera.bits_per_s = bits_per_s;
   const auto lcs = std::make_shared<LcsSensor>(target, camera);
   return {lcs, &lcs->line};
+}
+
+struct HeadSensor {
+  MemoryHead head;
+  SensorInMemory sensor;
+  HeadSensor(const Target& target, const LcsCamera& camera)
+      : head(*target.caster, target.motion, ScannerModel{}, 5, camera), sensor(head, optics_of(camera)) {
+    sensor.permit_laser(true);
+  }
+};
+
+Rig in_memory(const Target& target) {
+  const auto own = std::make_shared<HeadSensor>(target, head(lcs::Device::kTridar));
+  return {own, &own->sensor};
 }
 
 Rig direct(const Target& target) {
@@ -198,7 +213,7 @@ class SensorContract : public ::testing::TestWithParam<Kind> {
 };
 
 TEST_P(SensorContract, ScansThePlanRayByRay) {
-  VERIFIES("LASSO-SNS-031~1 LASSO-SYS-018~2 LASSO-LCS-003~1 LASSO-LCS-007~2 LASSO-LCS-016~2");
+  VERIFIES("LASSO-SNS-031~1 LASSO-SYS-018~2 LASSO-LCS-003~1 LASSO-LCS-007~2 LASSO-LCS-016~2 LASSO-LCS-022~1");
   const ScanPlan plan = plan_of();
   ASSERT_EQ(sensor.start(plan, kStartUs), Status::kOk);
   expect_the_box(plan, collect(plan, kStartUs), kStartUs);
@@ -300,7 +315,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Kind{"lcs_1Mbit", kSpotStepM, [](const Target& target) { return over_the_line(target, 1e6); }},
                       Kind{"lidar", kFlightStepM, [](const Target& target) { return over_the_line(target, 4e6, lcs::Device::kLidar); }},
                       Kind{"tridar", kFlightStepM, [](const Target& target) { return over_the_line(target, 4e6, lcs::Device::kTridar); }},
-                      Kind{"direct", kFlightStepM, direct}, Kind{"replay", kSpotStepM, replayed}),
+                      Kind{"direct", kFlightStepM, direct}, Kind{"in_memory", kFlightStepM, in_memory},
+                      Kind{"replay", kSpotStepM, replayed}),
     [](const auto& kind) { return std::string(kind.param.name); });
 
 }  // namespace

@@ -1,0 +1,168 @@
+#include "hal_lcs/head_driver.hpp"
+
+#include <cstring>
+
+#include "fsw/core/invariant.hpp"
+#include "fsw/sense/pattern.hpp"
+#include "hal_lcs/plan_check.hpp"
+
+namespace lasso::lcs {
+namespace {
+
+StartCommand start_command(const ScanPlan& plan) {
+  StartCommand command;
+  command.aimed = static_cast<std::uint16_t>(plan.aimed.size());
+  command.plan = plan;
+  return command;
+}
+
+void write_aimed(Span<const AimedRay> rays, HeadMemory& head) {
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    ByteWriter out{Bytes(head.aimed[i])};
+    out.f32(rays[i].x);
+    out.f32(rays[i].y);
+  }
+}
+
+// Any word but those is a refusal, too.
+Status reason_of(std::uint32_t result) {
+  if (result == static_cast<std::uint32_t>(Result::kDone)) return Status::kOk;
+  if (result == static_cast<std::uint32_t>(Result::kInhibited)) return Status::kMissing;
+  return result == static_cast<std::uint32_t>(Result::kBusy) ? Status::kBusy : Status::kBadValue;
+}
+
+// Of a frame that may be written just now, which its checksum tells.
+bool read_status(const HeadMemory& head, CameraStatus& status) {
+  FrameDecoder decoder;
+  Frame frame;
+  return decoder.step(ConstBytes(head.status), frame).found && decode(frame, status) == Status::kOk;
+}
+
+}  // namespace
+
+HeadDriver::HeadDriver(HeadMemory& head, const Optics& optics) : head_(head), made_(optics), optics_(optics), commands_(head.done.load()) {
+  invariant(optics.validate() == Status::kOk, "lcs calibration");
+  head_.commands.store(commands_);
+  show_laser();
+}
+
+// --- what the head is told
+
+// What no two copies say is no permission.
+bool HeadDriver::laser_permitted() const {
+  std::uint8_t permitted = 0;
+  return laser_.get(permitted) && permitted != 0;
+}
+
+// With each call: a word that a disturbance has changed is right again, and the head hears that somebody is there.
+void HeadDriver::show_laser() {
+  head_.laser.store(laser_permitted() ? kLaserMayShine : 0);
+  head_.beats.store(head_.beats.load() + 1);
+}
+
+void HeadDriver::permit_laser(bool permitted) {
+  laser_.set(permitted ? 1 : 0);
+  show_laser();
+}
+
+// Each scan sets its temperature.
+void HeadDriver::use_calibration(const TriangulationCalibration* calibration) {
+  optics_ = calibration == nullptr ? made_ : made_.calibrated(*calibration);
+}
+
+void HeadDriver::give(const FrameBytes& command) {
+  std::memcpy(head_.command, command.bytes, command.size);
+  head_.commands.store(++commands_);
+}
+
+Status HeadDriver::start(const ScanPlan& plan, TimeUs t_start_us) {
+  laser_.set(laser_permitted() ? 1 : 0);
+  show_laser();
+  if (running_) return Status::kBusy;
+  const Status status = validate(plan);
+  if (status != Status::kOk) return status;
+  if (!laser_permitted()) return Status::kMissing;
+  running_ = true;
+  scan_ = Scan{plan, t_start_us + kStartDelayUs, t_start_us, 0, 0, 0};
+  ByteWriter{Bytes(head_.first_us)}.u64(static_cast<std::uint64_t>(scan_.first_us));
+  write_aimed(plan.aimed, head_);
+  give(encode(static_cast<std::uint8_t>(commands_ + 1), start_command(plan)));
+  return Status::kOk;
+}
+
+void HeadDriver::abort() {
+  show_laser();
+  if (running_) give(encode(static_cast<std::uint8_t>(commands_ + 1), Type::kAbort));
+  running_ = false;
+}
+
+// --- what it says
+
+// Of another head than the calibration's nothing is believed.
+Status HeadDriver::take(const CameraStatus& status) {
+  if (status.serial != optics_.serial() || status.device != optics_.device() || status.version != kProtocolVersion)
+    return Status::kBadVersion;
+  const bool booted = boots_ != 0 && status.boots != boots_;
+  boots_ = status.boots;
+  if (booted) ++counters_.restarts;
+  if (booted) return Status::kBadOrder;
+  if (scan_.there == 0) optics_.set_temperature(static_cast<double>(status.temperature_degC));
+  scan_.there = head_.samples.load();
+  if (scan_.there > scan_.plan.points) return Status::kBadLength;
+  return status.scanning || scan_.there == scan_.plan.points ? Status::kOk : Status::kTruncated;
+}
+
+// Why the scan is lost, if it is.
+Status HeadDriver::listen(TimeUs now_us) {
+  if (!laser_permitted()) return Status::kMissing;
+  if (head_.done.load() != commands_) return now_us - scan_.first_us > kAnswerTimeoutUs ? Status::kTimeout : Status::kOk;
+  const Status refusal = reason_of(head_.result.load());
+  if (refusal != Status::kOk) return refusal;
+  CameraStatus status;
+  if (read_status(head_, status)) return take(status);
+  ++counters_.damaged_frames;
+  return Status::kOk;
+}
+
+SensorPoll HeadDriver::poll(TimeUs now_us, Span<RangeSample> out) {
+  SensorPoll answer;
+  show_laser();
+  answer.status = running_ ? listen(now_us) : Status::kNoData;
+  while (answer.status == Status::kOk && answer.count < out.size() && scan_.next < scan_.there) {
+    hand_over(out[answer.count++]);
+    if (scan_.off_plan == kOffPlanFrames) answer.status = Status::kOffPlan;
+  }
+  answer.complete = answer.status == Status::kOk && scan_.next == scan_.plan.points;
+  if (answer.complete) running_ = false;
+  if (answer.status != Status::kOk) abort();
+  return answer;
+}
+
+void HeadDriver::hand_over(RangeSample& sample) {
+  const auto ray = static_cast<std::uint16_t>(scan_.next++);
+  ByteReader in{ConstBytes(head_.records[ray])};
+  const std::uint32_t clock_us = in.u32();
+  RawSample raw;
+  if (read_sample(in, clock_us, raw) != Status::kOk) raw.kind = SampleKind::kSaturated;  // makes no statement
+  if (ray % kRaysPerPlanCheck == 0 && !follows_plan(scan_.plan, ray, raw, optics_.mirrors())) {
+    ++counters_.off_plan;
+    ++scan_.off_plan;
+  }
+  convert(raw, scan_.first_us + static_cast<std::int32_t>(clock_us - static_cast<std::uint32_t>(scan_.first_us)), sample);
+}
+
+void HeadDriver::convert(const RawSample& raw, TimeUs t_us, RangeSample& sample) {
+  const DurationUs late_us = t_us - (scan_.first_us + pattern_time_us(scan_.plan, static_cast<std::uint16_t>(scan_.next - 1)));
+  const Fate fate = optics_.convert(raw, t_us, sample);
+  if (t_us >= scan_.last_us && late_us <= kClockToleranceUs && late_us >= -kClockToleranceUs) {
+    scan_.last_us = t_us;
+    if (fate == Fate::kBeside) ++counters_.samples_outside;
+    if (fate != Fate::kBeside && fate != Fate::kPoint && fate != Fate::kNothing) ++counters_.samples_refused;
+    return;
+  }
+  ++counters_.bad_times;
+  sample = RangeSample{};
+  sample.t_us = scan_.last_us;
+}
+
+}  // namespace lasso::lcs

@@ -1,0 +1,62 @@
+// A head in the processor's own housing, laser camera, LIDAR or TriDAR, behind the Sensor interface: plans and samples pass through memory
+// that both see (head_memory.hpp), and one clock times both. What the head says goes by the same numbers, calibrations and checks as over a
+// line (driver.hpp), so that the same scan has the same points, bit for bit.
+#pragma once
+
+#include <cstdint>
+
+#include "fsw/core/voted.hpp"
+#include "fsw/sense/sensor.hpp"
+#include "hal_lcs/driver.hpp"
+#include "hal_lcs/head_memory.hpp"
+#include "hal_lcs/optics.hpp"
+
+namespace lasso::lcs {
+
+class HeadDriver final : public Sensor {
+ public:
+  // `optics` are valid (an invariant); the memory outlives the driver, and may be as another driver has left it.
+  HeadDriver(HeadMemory& head, const Optics& optics);
+
+  // As Driver's: none at first, in three voted copies that each start repairs. With each call without permission the laser's word is
+  // written dark.
+  void permit_laser(bool permitted) override;
+  void use_calibration(const TriangulationCalibration* calibration) override;
+
+  // kBusy while a scan runs; validate(plan)'s reason; kMissing without permission. The first sample is taken kStartDelayUs later.
+  Status start(const ScanPlan& plan, TimeUs t_start_us) override;
+  // Bound: out.size() samples.
+  SensorPoll poll(TimeUs now_us, Span<RangeSample> out) override;
+  void abort() override;
+  // Damaged frames are those of the head's status.
+  SensorCounters counters() const override { return counters_; }
+
+ private:
+  struct Scan {
+    ScanPlan plan;
+    TimeUs first_us = 0;      // of the first sample
+    TimeUs last_us = 0;       // of the last sample
+    std::uint32_t next = 0;   // sample to hand over
+    std::uint32_t there = 0;  // samples that the head has
+    std::uint32_t off_plan = 0;
+  };
+
+  bool laser_permitted() const;
+  void show_laser();
+  void give(const FrameBytes& command);
+  Status listen(TimeUs now_us);
+  Status take(const CameraStatus& status);
+  void hand_over(RangeSample& sample);
+  void convert(const RawSample& raw, TimeUs t_us, RangeSample& sample);
+
+  HeadMemory& head_;
+  Optics made_, optics_;          // as it was made, and as they are believed
+  Voted<std::uint8_t> laser_{0};  // 1: permitted
+  std::uint32_t commands_;        // given
+  std::uint32_t boots_ = 0;       // of the head, as it last said; 0: never
+  bool running_ = false;
+  Scan scan_;
+  SensorCounters counters_;
+};
+
+}  // namespace lasso::lcs

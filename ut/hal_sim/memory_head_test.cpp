@@ -1,0 +1,102 @@
+#include "hal_sim/memory_head.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <vector>
+
+#include "hal_sim/lcs_device.hpp"
+#include "ut/hal_sim/head_scene.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::sim {
+namespace {
+
+class InMemory : public ::testing::TestWithParam<lcs::Device> {};
+
+TEST_P(InMemory, GivesTheBitsThatTheLineBrings) {
+  VERIFIES("LASSO-LCS-022~1");
+  const HeadScene scene;
+  const LcsCamera camera = head_of(GetParam());
+  LcsDevice device(*scene.caster, scene.motion, noisy_head(), kHeadSeed, camera);
+  LcsOverLine line(device, optics_of(camera), camera.bits_per_s);
+  MemoryHead head(*scene.caster, scene.motion, noisy_head(), kHeadSeed, camera);
+  SensorInMemory memory(head, optics_of(camera));
+  line.permit_laser(true);
+  memory.permit_laser(true);
+  const AimedRays aimed = aimed_row();
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const TimeUs t_us = kHeadStartUs + k * 200'000;
+    expect_same_samples(whole_scan(memory, odd_plan(k, aimed), t_us), whole_scan(line, odd_plan(k, aimed), t_us));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, InMemory, ::testing::Values(lcs::Device::kLaserCamera, lcs::Device::kLidar, lcs::Device::kTridar),
+                         device_name);
+
+struct HeadRig {
+  HeadScene scene;
+  LcsCamera camera = head_of(lcs::Device::kLaserCamera);
+  MemoryHead head{*scene.caster, scene.motion, noisy_head(), kHeadSeed, camera};
+  lcs::HeadMemory memory;
+  lcs::HeadDriver driver{memory, optics_of(camera)};
+  std::vector<RangeSample> out = std::vector<RangeSample>(kMaxSamplesPerPoll);
+
+  Status poll(TimeUs now_us) { return driver.poll(now_us, {out.data(), out.size()}).status; }
+};
+
+TEST(MemoryHead, IsDarkWithoutPermissionOrAProcessor) {
+  VERIFIES("LASSO-LCS-018~1");
+  HeadRig rig;
+  rig.driver.permit_laser(true);
+  const AimedRays none;
+  ScanPlan slow = odd_plan(1, none);
+  slow.duration_us = 3'000'000;
+  ASSERT_EQ(rig.driver.start(slow, kHeadStartUs), Status::kOk);
+  rig.head.run(kHeadStartUs, rig.memory);
+  rig.head.run(kHeadStartUs + lcs::kUnheardUs, rig.memory);
+  const std::uint32_t there = rig.memory.samples.load();
+  EXPECT_GT(there, 500U);
+  rig.head.run(kHeadStartUs + lcs::kUnheardUs + 500'000, rig.memory);
+  EXPECT_EQ(rig.memory.samples.load(), there) << "the processor hangs";
+  EXPECT_EQ(rig.poll(kHeadStartUs + lcs::kUnheardUs + 500'000), Status::kTruncated);
+
+  rig.driver.permit_laser(false);
+  rig.memory.commands.store(rig.memory.commands.load() + 1);  // a start that the driver would not have given
+  const lcs::FrameBytes start = lcs::encode(0, lcs::StartCommand{});
+  std::copy_n(start.bytes, start.size, rig.memory.command);
+  rig.head.run(kHeadStartUs + 4'000'000, rig.memory);
+  EXPECT_EQ(rig.memory.result.load(), static_cast<std::uint32_t>(lcs::Result::kInhibited));
+}
+
+TEST(MemoryHead, RefusesWhatItCannotScan) {
+  HeadRig rig;
+  rig.driver.permit_laser(true);
+  const auto result_of = [&](const lcs::FrameBytes& command) {
+    std::copy_n(command.bytes, command.size, rig.memory.command);
+    rig.memory.commands.store(rig.memory.commands.load() + 1);
+    rig.head.run(kHeadStartUs, rig.memory);
+    return static_cast<lcs::Result>(rig.memory.result.load());
+  };
+  lcs::StartCommand wide, crowded;
+  wide.plan.half_x = 1;
+  crowded.aimed = kMaxAimedRays + 1;
+  EXPECT_EQ(result_of(lcs::encode(0, wide)), lcs::Result::kBadPlan);
+  EXPECT_EQ(result_of(lcs::encode(0, crowded)), lcs::Result::kBadPlan);
+  EXPECT_EQ(result_of(lcs::encode(0, lcs::Type::kSelfTest)), lcs::Result::kUnknown);
+  EXPECT_EQ(result_of(lcs::encode(0, lcs::StartCommand{})), lcs::Result::kDone);
+  lcs::FrameBytes damaged = lcs::encode(0, lcs::StartCommand{});
+  damaged.bytes[9] ^= 1;
+  EXPECT_EQ(result_of(damaged), lcs::Result::kUnknown);
+}
+
+TEST(MemoryHead, RefusesOpticsThatAreNotValid) {
+  const HeadScene scene;
+  LcsCamera bad = head_of(lcs::Device::kLaserCamera);
+  bad.truth.baseline_m = 0;
+  EXPECT_THROW(MemoryHead(*scene.caster, scene.motion, noisy_head(), kHeadSeed, bad), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace lasso::sim
