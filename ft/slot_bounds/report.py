@@ -27,7 +27,7 @@ def stage_table(found, rows, results):
     lines = [HEAD]
     for stage in rows:
         if all(stage.title in by_title[form] for form in by_title):
-            worst = stages.worst_of(results, stage.measured) if stage.measured else None
+            worst = stages.worst_measured(results, stage)
             lines.append(f'| {stage.title} | {figure(by_title["any"][stage.title])} | {figure(by_title["mission"][stage.title])} | {figure(worst)} |')
     return '\n'.join(lines)
 
@@ -62,8 +62,8 @@ def missing(bounded, function, loop):
 
 def tables(code, found, results, bounded, commit):
     """Of the sources at that commit."""
-    measured = results.get('pil', {}).get('commit', 'none')
-    parts = [f'Derived at commit {commit}, in instructions; `make pil` measured at commit {measured}.']
+    measured = ', '.join(f'`make {name}` at commit {of.get("measured", of)["commit"]}' for name, of in results.items() if of)
+    parts = [f'Derived at commit {commit}, in instructions. Measured by {measured or "nothing"}.']
     parts += ['### Slots', stage_table(found, stages.SLOTS, results), '### Estimation', stage_table(found, stages.ESTIMATION, results)]
     for title in stages.SHOWN:
         _, first, costs, _ = next(row for row in found['mission'] if row[0].title.removeprefix('- ') == title)

@@ -7,7 +7,7 @@ import re
 @dataclasses.dataclass
 class Stage:
     """`left_out`: what counts as nothing within it. `together`: what is called so often in all, wherever it is called. `measured`: where the
-    results of other programs have its worst: file, and keys."""
+    results of other programs have its worst, each a file and keys; the largest of them counts."""
     title: str
     function: str
     left_out: tuple = ()
@@ -20,11 +20,11 @@ COMMANDS = ((r'lasso::CommandDispatcher::accept\(', 10),)  # kMaxCommandsPerFram
 TASKS = ((r'lasso::AcquisitionTask::poll\(', 1), (r'lasso::ImageService::run_slot\(', 1))
 BOUNDARY_TASK = r'lasso::Component::pass_boundary\('
 RIG = r'lasso::bare::Flight::let_world_move\('  # the board's clock stands still there
-ESTIMATE = ('pil', 'float', 'instructions', 'estimate', 'worst')
-BOUNDARY = ('pil', 'float', 'instructions', 'boundary', 'worst')
-POLL = ('pil', 'float', 'instructions', 'largest_poll', 'worst')
-SEARCH_STEP, SEARCH_SLICE = ('search-count', 'float', '*', 'step'), ('search-count', 'float', '*', 'slice')
-TRACKED = ('ppc-count', 'instructions', '*', 'max')
+BOUNDARY = (('pil', 'float', 'instructions', 'boundary', 'worst'),)
+POLL = (('pil', 'float', 'instructions', 'largest_poll', 'worst'),)
+SEARCH_STEP, SEARCH_SLICE = (('search-count', 'float', '*', 'step'),), (('search-count', 'float', '*', 'slice'),)
+TRACKED = (('pil', 'float', 'instructions', 'estimate', 'worst'), ('ppc-count', 'instructions', '*', 'max'))
+ESTIMATE = (*TRACKED, *SEARCH_SLICE)
 
 SLOTS = [
     Stage('the slot with the boundary', r'lasso::bare::Flight::tick\(', (RIG,), BOUNDARY, (*COMMANDS, *TASKS, (BOUNDARY_TASK, 1))),
@@ -49,7 +49,7 @@ ESTIMATION = [
     Stage('- the weak axis', r'lasso::minimise_weak_axis\('),
     Stage('- one fit of the outline', r'lasso::fit_outline\('),
     Stage('- one search for labels', r'lasso::find_labels\('),
-    Stage('- one word of the labels', r'lasso::apply_labels\('),
+    Stage('- the update by the labels', r'lasso::apply_labels\('),
     Stage('- the agreement of the rays', r'lasso::agreement_of_rays\('),
     Stage('- an update of the filter', r'lasso::update_filter\('),
     Stage('a scan of a part', r'lasso::track_part\('),
@@ -66,6 +66,16 @@ def find(image, pattern):
     """Address of the first function that matches; None where there is none, as it is inlined."""
     found = (at for at, function in image.functions.items() if re.search(pattern, function.title.replace('(anonymous namespace)', '{anonymous}')))
     return next(found, None)
+
+
+def worst_measured(results, stage):
+    """None where nothing was measured."""
+    return max((worst for worst in (worst_of(results, keys) for keys in stage.measured) if worst is not None), default=None)
+
+
+def unmeasured(results, stage):
+    """The programs whose results have no worst of the stage."""
+    return {keys[0] for keys in stage.measured if worst_of(results, keys) is None}
 
 
 def worst_of(results, keys):
