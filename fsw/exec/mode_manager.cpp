@@ -251,7 +251,7 @@ void ModeManager::use_sensor(SensorNumber sensor) {
 
 void ModeManager::follow_jump(DurationUs moved_us) {
   track_.filter.t_us += moved_us;
-  follow_table(ModeEvent::kConfirmAnew);                    // the scan that a check searches is of another time
+  confirm_anew();                                           // the scan that a check searches is of another time
   if (properties(track_.mode).searches) ++track_.searches;  // so are those that the search has joined: it begins anew
   former_.t_us += moved_us;
   track_.bearing.t_us += moved_us;
@@ -265,6 +265,13 @@ void ModeManager::take_over_track(bool kept, bool on_trial) {
   context_.scans.drop_plans();
   if (!kept) return leave_target();
   follow_table(ModeEvent::kConfirmAnew);  // a check searches the other image's tables
+}
+
+// Between boundaries, so that the copies are compared before, and follow.
+void ModeManager::confirm_anew() {
+  check_mode();
+  follow_table(ModeEvent::kConfirmAnew);
+  keep_mode();
 }
 
 // The mode is its own: a track that was lost is looked for again. In bearing a start is awaited, and nothing leads back to the prediction.

@@ -84,6 +84,7 @@ class ModeManager {
   void drop_request();
   void take(ModeEvent event);
   void follow_table(ModeEvent event);
+  void confirm_anew();
   void try_start(InitialPoseSource source);
   void try_sources();
   InitialPoseSource next_source() const;

@@ -252,7 +252,7 @@ void end_check(const MissionParameters& p, CheckOutcome verdict, TrackStep& step
     return confirm_anew(step);  // where the mode is held
   }
   state.check = StartCheck{};
-  state.check.stage = again ? StartCheck::Stage::kAwaited : StartCheck::Stage::kPassed;
+  state.check.stage = again ? StartCheck::Stage::kNone : StartCheck::Stage::kPassed;
   state.check.undecided = again;
   if (again) return;
   if (registration.reason != PoseReason::kUnchecked) return;

@@ -23,12 +23,12 @@
 namespace lasso {
 
 // How far the mode verifying has come with a start that a scan has confirmed (start.check): is there another pose, that explains this scan
-// better? The track is followed meanwhile. Where the search of the first scan contradicts nothing, but does not accept the start's pose
-// either, a second scan is searched: kAwaited, until there is one. kPassed: a search accepts the start's pose, or two contradict nothing
-// and accept nothing (a symmetric target, few returns). The next valid pose is then believed.
+// better? The track is followed meanwhile. kNone: no scan is searched. Where the search of the first scan contradicts nothing, but does not
+// accept the start's pose either (`undecided`), the next valid scan is searched as well. kPassed: a search accepts the start's pose, or two
+// contradict nothing and accept nothing (a symmetric target, few returns). The next valid pose is then believed.
 struct StartCheck {
-  enum class Stage : std::uint8_t { kAwaited, kSearching, kPassed };
-  Stage stage = Stage::kAwaited;
+  enum class Stage : std::uint8_t { kNone, kSearching, kPassed };
+  Stage stage = Stage::kNone;
   bool undecided = false;  // the first search
   TimeUs t_us = 0;         // of the scan
   Pose T_sensor_target;    // in it

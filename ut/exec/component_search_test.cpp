@@ -9,6 +9,7 @@ namespace {
 using test::code;
 using test::ComponentScene;
 using test::Report;
+using test::run_shifted;
 using test::Story;
 using test::story_parameters;
 using M = TrackingMode;
@@ -131,6 +132,30 @@ TEST(ComponentSearch, ARightStartIsToldAsUncheckedAndThenTracked) {
   }
   EXPECT_GT(unchecked, 3u);
   EXPECT_EQ(story.last().refused_starts, 0u);
+}
+
+// The scan that a check searches is of the old clock's time.
+TEST(ComponentSearch, AStartThatIsCheckedIsConfirmedAnewWhenTheClockJumps) {
+  VERIFIES("LASSO-MOD-188~1 LASSO-HLT-006~1");
+  constexpr DurationUs kJump_us = 60'000'000;
+  MissionParameters p = search_parameters();
+  p.start_check = 1;
+  p.search_slice = 200000;
+  ComponentScene scene(p, test::uneven_scene());
+  scene.begin();
+  ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kHandover, rough_offer(p, test::uneven_scene().at_zero, {}, 0)),
+            StartRefusal::kNone);
+  Story story;
+  story.run(scene, 5);
+  ASSERT_EQ(story.last().mode, code(M::kVerifying));
+  scene.sensor.scene_ahead_us = -kJump_us;
+  run_shifted(scene, story, kJump_us, 40);
+  story.expect({{M::kStandby, E::kStart, M::kStarting},
+                {M::kStarting, E::kCheck, M::kVerifying},
+                {M::kVerifying, E::kConfirmAnew, M::kStarting},
+                {M::kStarting, E::kCheck, M::kVerifying},
+                {M::kVerifying, E::kPoseValid, M::kTracking}});
+  EXPECT_FALSE(scene.component->faults().ever().has(Fault::kModeCorrupt)) << "the copies of the mode have followed";
 }
 
 // A mode that awaits a start and scans nothing is left for the bearing, if that is what the next source needs; otherwise it stays.

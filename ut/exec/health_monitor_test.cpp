@@ -11,6 +11,7 @@ namespace {
 
 using test::code;
 using test::ComponentScene;
+using test::run_shifted;
 using test::Story;
 using M = TrackingMode;
 using E = ModeEvent;
@@ -257,16 +258,6 @@ TEST_F(TrackedComponent, AProcessorThatComputesOtherwiseBeginsInSafe) {
   story.run(scene, 3);
   story.expect({{M::kStandby, E::kMakeSafe, M::kSafe}});
   EXPECT_TRUE(scene.component->faults().active().has(Fault::kSelfTestFailed));
-}
-
-// Runs the slots of `frames` frames with the clock `off_us` away from the nominal times of the first of them.
-void run_shifted(ComponentScene& scene, Story& story, DurationUs off_us, int frames) {
-  const TimeUs now_us = scene.component->next_slot_us() + off_us;
-  EXPECT_TRUE(scene.component->slot_is_due(now_us));
-  scene.component->run_slot(now_us);
-  EXPECT_EQ(scene.component->next_slot_us(), now_us + 10'000) << "slots go on from the clock's time";
-  scene.component->run_estimation();
-  story.run(scene, frames);
 }
 
 TEST(HealthMonitor, AClockThatJumpsIsFollowedAndTheTargetLookedForAgain) {

@@ -44,4 +44,14 @@ struct Story {
   const PoseTelemetry& last() const { return reports.back(); }
 };
 
+// Runs the slots of `frames` frames with the clock `off_us` away from the nominal times of the first of them.
+inline void run_shifted(ComponentScene& scene, Story& story, DurationUs off_us, int frames) {
+  const TimeUs now_us = scene.component->next_slot_us() + off_us;
+  EXPECT_TRUE(scene.component->slot_is_due(now_us));
+  scene.component->run_slot(now_us);
+  EXPECT_EQ(scene.component->next_slot_us(), now_us + 10'000) << "slots go on from the clock's time";
+  scene.component->run_estimation();
+  story.run(scene, frames);
+}
+
 }  // namespace lasso::test

@@ -24,7 +24,7 @@ TEST_F(StartCheckTest, ARightStartIsBelievedOnceTheSearchHasFoundNothingElse) {
   EXPECT_TRUE(step.registration.valid()) << to_string(step.registration.reason);
   EXPECT_EQ(step.event, ModeEvent::kPoseValid);
   EXPECT_EQ(step.after.mode, TrackingMode::kTracking);
-  EXPECT_EQ(step.after.check.stage, Stage::kAwaited);
+  EXPECT_EQ(step.after.check.stage, Stage::kNone);
   EXPECT_NE(step.search.outcome, SearchOutcome::kNone) << "what it found is reported";
   EXPECT_EQ(step.after.filter.accepted, k) << "the track was followed meanwhile";
   EXPECT_LT(error(step.after.filter.T_sensor_target, 0).norm(), 5e-3);
@@ -52,7 +52,7 @@ TEST_F(StartCheckTest, AWrongStartThatItsScanConfirmsIsContradicted) {
   EXPECT_EQ(step.refusal, StartRefusal::kContradicted);
   EXPECT_EQ(step.event, ModeEvent::kExhausted);
   EXPECT_EQ(step.after.mode, TrackingMode::kLost) << "without waiting for start.frames";
-  EXPECT_EQ(step.after.check.stage, Stage::kAwaited);
+  EXPECT_EQ(step.after.check.stage, Stage::kNone);
 }
 
 TEST_F(StartCheckTest, AVerdictInAFrameWhoseScanIsLostRefusesTheStartAndTellsOfTheScan) {
@@ -101,8 +101,8 @@ TEST_F(StartCheckTest, AStartIsBelievedWhoseCompetitorsExplainTheScanAsWell) {
   half_turn.p = scene_.box.center - rotate(half_turn.q, scene_.box.center);
   ASSERT_EQ(start_at(scene_.at_zero * half_turn, Twist{}, 0, 0), StartRefusal::kNone);
   EXPECT_EQ(frame(0).after.check.stage, Stage::kSearching);
-  EXPECT_EQ(frame(1).after.check.stage, Stage::kAwaited);
-  EXPECT_EQ(frame(2, true).after.check.stage, Stage::kAwaited) << "without a scan";
+  EXPECT_EQ(frame(1).after.check.stage, Stage::kNone);
+  EXPECT_EQ(frame(2, true).after.check.stage, Stage::kNone) << "without a scan";
   EXPECT_EQ(state_.mode, TrackingMode::kVerifying);
   const TrackStep second = frame(3);
   EXPECT_EQ(second.registration.reason, PoseReason::kUnchecked);
@@ -120,7 +120,7 @@ TEST_F(StartCheckTest, TheSecondSearchHasTheLastWordWhereTheFirstIsUndecided) {
   const auto second_word = [&](CheckOutcome verdict) {
     TrackStep step = searching;
     end_check(mission_.parameters, CheckOutcome::kUndecided, step);
-    EXPECT_EQ(step.after.check.stage, Stage::kAwaited);
+    EXPECT_EQ(step.after.check.stage, Stage::kNone);
     EXPECT_EQ(step.after.mode, TrackingMode::kVerifying);
     EXPECT_EQ(step.registration.reason, PoseReason::kUnchecked);
     step.after.check.stage = Stage::kSearching;
@@ -138,7 +138,7 @@ TEST_F(StartCheckTest, AnImplausibleScanEndsACheckThatWaitsForItsSecondSearch) {
   VERIFIES("LASSO-MOD-184~5 LASSO-MOD-009~1 LASSO-MOD-188~1");
   follow_unchecked();
   ASSERT_EQ(state_.mode, TrackingMode::kVerifying);
-  state_.check.stage = Stage::kAwaited;
+  state_.check.stage = Stage::kNone;
   state_.check.undecided = true;
   scene_.at_zero.p += Vec3(0.006, -0.004, 0.007);
   const TrackStep jumped = frame(10);
@@ -267,7 +267,7 @@ TEST_F(StartCheckTest, AnotherStartBeginsItsOwnCheck) {
   frame(0);
   start(small_error());
   EXPECT_EQ(state_.mode, TrackingMode::kStarting);
-  EXPECT_EQ(state_.check.stage, Stage::kAwaited);
+  EXPECT_EQ(state_.check.stage, Stage::kNone);
   EXPECT_EQ(frame(1).after.searches, 2u);
 }
 
