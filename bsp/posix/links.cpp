@@ -39,7 +39,7 @@ struct Place {
 Place place_of(const std::string& url) {
   const std::size_t scheme = url.find("://");
   if (scheme == std::string::npos)
-    refuse(url, "no link; one of udp://[HOST]:PORT, tcp://[HOST]:PORT, file://PATH, or to connect to serial:PATH");
+    refuse(url, "no link; one of udp://[HOST]:PORT, tcp://[HOST]:PORT, file://PATH, or to connect to serial:PATH, unix:PATH");
   Place place{url.substr(0, scheme), "", ""};
   const std::string rest = url.substr(scheme + 3);
   if (place.scheme == "file") {

@@ -39,7 +39,7 @@ const ParameterRow kRows[] = {
   {24, kReal, "scan.phase_step_turns", "1", &P::phase_step_turns, 1, 0, 1, 0.3819660112501051, "", "turn of the pattern from scan to scan"},
   {25, kReal, "scan.aimed_share", "1", &P::aimed_share, 1, 0, 0.5, 0, "", "most of the rays that leave the pattern for predicted contours (with estimation.silhouettes); 0.3 is a good share"},
   {26, kReal, "estimation.incidence_max_deg", "deg", &P::incidence_max_rad, kDeg, 45, 89, 86, "", "rays that graze the surface more than this do not count"},
-  {27, kReal, "estimation.kernel_width", "1", &P::kernel_width, 1, 2, 50, 10, "", "Tukey kernel's width in sigmas (tight is dishonest, see docs)"},
+  {27, kReal, "estimation.kernel_width", "1", &P::kernel_width, 1, 2, 50, 10, "", "Tukey kernel's width in sigmas (a narrow one gives too small a covariance)"},
   {28, kReal, "estimation.gate_first_m", "m", &P::gate_first_m, 1, 0, 10, 0.010, "", "added to the kernel's width in the first iteration"},
   {29, kInteger, "estimation.iterations_max", "1", &P::iterations_max, 1, 2, 50, 12, "", "bound of the ray iterations"},
   {30, kReal, "estimation.stop_translation_m", "m", &P::stop_translation_m, 1, 1e-7, 0.1, 1e-4, "", "converged when a step is smaller than this, and than 0.01 deg"},
