@@ -3,18 +3,10 @@
 #include <cstring>
 
 #include "fsw/core/invariant.hpp"
-#include "fsw/sense/pattern.hpp"
 #include "hal_lcs/plan_check.hpp"
 
 namespace lasso::lcs {
 namespace {
-
-StartCommand start_command(const ScanPlan& plan) {
-  StartCommand command;
-  command.aimed = static_cast<std::uint16_t>(plan.aimed.size());
-  command.plan = plan;
-  return command;
-}
 
 void write_aimed(Span<const AimedRay> rays, HeadMemory& head) {
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -148,21 +140,19 @@ void HeadDriver::hand_over(RangeSample& sample) {
     ++counters_.off_plan;
     ++scan_.off_plan;
   }
-  convert(raw, scan_.first_us + static_cast<std::int32_t>(clock_us - static_cast<std::uint32_t>(scan_.first_us)), sample);
+  convert(raw, ray, scan_.first_us + static_cast<std::int32_t>(clock_us - static_cast<std::uint32_t>(scan_.first_us)), sample);
 }
 
-void HeadDriver::convert(const RawSample& raw, TimeUs t_us, RangeSample& sample) {
-  const DurationUs late_us = t_us - (scan_.first_us + pattern_time_us(scan_.plan, static_cast<std::uint16_t>(scan_.next - 1)));
+void HeadDriver::convert(const RawSample& raw, std::uint16_t ray, TimeUs t_us, RangeSample& sample) {
   const Fate fate = optics_.convert(raw, t_us, sample);
-  if (t_us >= scan_.last_us && late_us <= kClockToleranceUs && late_us >= -kClockToleranceUs) {
+  if (follows_time(scan_.plan, ray, scan_.first_us, scan_.last_us, t_us)) {
     scan_.last_us = t_us;
     if (fate == Fate::kBeside) ++counters_.samples_outside;
     if (fate != Fate::kBeside && fate != Fate::kPoint && fate != Fate::kNothing) ++counters_.samples_refused;
     return;
   }
   ++counters_.bad_times;
-  sample = RangeSample{};
-  sample.t_us = scan_.last_us;
+  sample = invalid_sample(scan_.last_us);
 }
 
 }  // namespace lasso::lcs

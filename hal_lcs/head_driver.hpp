@@ -47,7 +47,7 @@ class HeadDriver final : public Sensor {
   Status listen(TimeUs now_us);
   Status take(const CameraStatus& status);
   void hand_over(RangeSample& sample);
-  void convert(const RawSample& raw, TimeUs t_us, RangeSample& sample);
+  void convert(const RawSample& raw, std::uint16_t ray, TimeUs t_us, RangeSample& sample);
 
   HeadMemory& head_;
   Optics made_, optics_;          // as it was made, and as they are believed

@@ -1,7 +1,6 @@
 #include "hal_sim/memory_head.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "fsw/sense/pattern.hpp"
@@ -59,19 +58,13 @@ lcs::Result MemoryHead::carry_out(const lcs::HeadMemory& memory) {
   return start(command, memory);
 }
 
-bool MemoryHead::within_mirrors(const ScanPlan& plan) const {
-  constexpr double kRounded = 1 + 1.0 / (1 << 22);  // the plan's numbers have 24 bits
-  const double limit = kRounded * std::tan(optics_of(camera_).mirrors().max_rad);
-  return std::abs(plan.center_x) + plan.half_x <= limit && std::abs(plan.center_y) + plan.half_y <= limit;
-}
-
 lcs::Result MemoryHead::start(const lcs::StartCommand& command, const lcs::HeadMemory& memory) {
   if (!lit_) return lcs::Result::kInhibited;
   if (command.aimed > kMaxAimedRays) return lcs::Result::kBadPlan;
   aimed_ = read_aimed(memory, command.aimed);
   plan_ = command.plan;
   plan_.aimed = Span<const AimedRay>(aimed_.data(), aimed_.size());
-  if (validate(plan_) != Status::kOk || !within_mirrors(plan_)) return lcs::Result::kBadPlan;
+  if (validate(plan_) != Status::kOk || !within_mirrors(camera_, plan_)) return lcs::Result::kBadPlan;
   first_us_ = static_cast<TimeUs>(ByteReader{ConstBytes(memory.first_us)}.u64());
   next_ = 0;
   running_ = true;

@@ -25,7 +25,6 @@ class MemoryHead {
   void watch_laser(TimeUs now_us, const lcs::HeadMemory& memory);
   lcs::Result carry_out(const lcs::HeadMemory& memory);
   lcs::Result start(const lcs::StartCommand& command, const lcs::HeadMemory& memory);
-  bool within_mirrors(const ScanPlan& plan) const;
   void measure(TimeUs t_us, lcs::HeadMemory& memory);
   void scan_until(TimeUs now_us, lcs::HeadMemory& memory);
   void tell_status(TimeUs now_us, lcs::HeadMemory& memory) const;
