@@ -1,7 +1,5 @@
 #include "hal_lcs/head_driver.hpp"
 
-#include <cstring>
-
 #include "fsw/core/invariant.hpp"
 #include "hal_lcs/plan_check.hpp"
 
@@ -17,22 +15,24 @@ void write_aimed(Span<const AimedRay> rays, HeadMemory& head) {
 }
 
 // Any word but those is a refusal, too.
-Status reason_of(std::uint32_t result) {
-  if (result == static_cast<std::uint32_t>(Result::kDone)) return Status::kOk;
-  if (result == static_cast<std::uint32_t>(Result::kInhibited)) return Status::kMissing;
-  return result == static_cast<std::uint32_t>(Result::kBusy) ? Status::kBusy : Status::kBadValue;
+Status reason_of(std::uint16_t result) {
+  if (result == static_cast<std::uint16_t>(Result::kDone)) return Status::kOk;
+  if (result == static_cast<std::uint16_t>(Result::kInhibited)) return Status::kMissing;
+  return result == static_cast<std::uint16_t>(Result::kBusy) ? Status::kBusy : Status::kBadValue;
 }
 
-// Of a frame that may be written just now, which its checksum tells.
-bool read_status(const HeadMemory& head, CameraStatus& status) {
-  FrameDecoder decoder;
+// Whether there is a whole one, and of which command.
+bool read_status(const HeadMemory& head, CameraStatus& status, std::uint8_t& sequence) {
   Frame frame;
-  return decoder.step(ConstBytes(head.status), frame).found && decode(frame, status) == Status::kOk;
+  const bool found = head.status.load(frame);
+  sequence = frame.sequence;
+  return found && decode(frame, status) == Status::kOk;
 }
 
 }  // namespace
 
-HeadDriver::HeadDriver(HeadMemory& head, const Optics& optics) : head_(head), made_(optics), optics_(optics), commands_(head.done.load()) {
+HeadDriver::HeadDriver(HeadMemory& head, const Optics& optics)
+    : head_(head), made_(optics), optics_(optics), commands_(command_of(head.answer.load())) {
   invariant(optics.validate() == Status::kOk, "lcs calibration");
   head_.commands.store(commands_);
   show_laser();
@@ -63,7 +63,7 @@ void HeadDriver::use_calibration(const TriangulationCalibration* calibration) {
 }
 
 void HeadDriver::give(const FrameBytes& command) {
-  std::memcpy(head_.command, command.bytes, command.size);
+  head_.command.store(command);
   head_.commands.store(++commands_);
 }
 
@@ -78,17 +78,23 @@ Status HeadDriver::start(const ScanPlan& plan, TimeUs t_start_us) {
   scan_ = Scan{plan, t_start_us + kStartDelayUs, t_start_us, 0, 0, 0};
   ByteWriter{Bytes(head_.first_us)}.u64(static_cast<std::uint64_t>(scan_.first_us));
   write_aimed(plan.aimed, head_);
-  give(encode(static_cast<std::uint8_t>(commands_ + 1), start_command(plan)));
+  give(encode(next_sequence(), start_command(plan)));
   return Status::kOk;
 }
 
 void HeadDriver::abort() {
   show_laser();
-  if (running_) give(encode(static_cast<std::uint8_t>(commands_ + 1), Type::kAbort));
+  if (running_) give(encode(next_sequence(), Type::kAbort));
   running_ = false;
 }
 
 // --- what it says
+
+// Of this scan's; a word that is of another one counts none.
+std::uint32_t HeadDriver::samples_there() const {
+  const std::uint32_t samples = head_.samples.load();
+  return command_of(samples) == commands_ ? value_of(samples) : 0U;
+}
 
 // Of another head than the calibration's nothing is believed.
 Status HeadDriver::take(const CameraStatus& status) {
@@ -99,19 +105,24 @@ Status HeadDriver::take(const CameraStatus& status) {
   if (booted) ++counters_.restarts;
   if (booted) return Status::kBadOrder;
   if (scan_.there == 0) optics_.set_temperature(static_cast<double>(status.temperature_degC));
-  scan_.there = head_.samples.load();
+  scan_.there = samples_there();
   if (scan_.there > scan_.plan.points) return Status::kBadLength;
   return status.scanning || scan_.there == scan_.plan.points ? Status::kOk : Status::kTruncated;
 }
 
+// What the head has not said yet of this scan it may say later.
+Status HeadDriver::unanswered(TimeUs now_us) const { return now_us - scan_.first_us > kAnswerTimeoutUs ? Status::kTimeout : Status::kOk; }
+
 // Why the scan is lost, if it is.
 Status HeadDriver::listen(TimeUs now_us) {
   if (!laser_permitted()) return Status::kMissing;
-  if (head_.done.load() != commands_) return now_us - scan_.first_us > kAnswerTimeoutUs ? Status::kTimeout : Status::kOk;
-  const Status refusal = reason_of(head_.result.load());
+  const std::uint32_t answer = head_.answer.load();
+  if (command_of(answer) != commands_) return unanswered(now_us);
+  const Status refusal = reason_of(value_of(answer));
   if (refusal != Status::kOk) return refusal;
   CameraStatus status;
-  if (read_status(head_, status)) return take(status);
+  std::uint8_t sequence = 0;
+  if (read_status(head_, status, sequence)) return sequence == sequence_of(commands_) ? take(status) : unanswered(now_us);
   ++counters_.damaged_frames;
   return Status::kOk;
 }

@@ -43,8 +43,11 @@ class HeadDriver final : public Sensor {
 
   bool laser_permitted() const;
   void show_laser();
+  std::uint8_t next_sequence() const { return sequence_of(static_cast<std::uint16_t>(commands_ + 1)); }
   void give(const FrameBytes& command);
+  Status unanswered(TimeUs now_us) const;
   Status listen(TimeUs now_us);
+  std::uint32_t samples_there() const;
   Status take(const CameraStatus& status);
   void hand_over(RangeSample& sample);
   void convert(const RawSample& raw, std::uint16_t ray, TimeUs t_us, RangeSample& sample);
@@ -52,7 +55,7 @@ class HeadDriver final : public Sensor {
   HeadMemory& head_;
   Optics made_, optics_;          // as it was made, and as they are believed
   Voted<std::uint8_t> laser_{0};  // 1: permitted
-  std::uint32_t commands_;        // given
+  std::uint16_t commands_;        // number of the last one given, modulo 2^16
   std::uint32_t boots_ = 0;       // of the head, as it last said; 0: never
   bool running_ = false;
   Scan scan_;

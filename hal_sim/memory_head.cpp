@@ -1,6 +1,5 @@
 #include "hal_sim/memory_head.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "fsw/sense/pattern.hpp"
@@ -28,15 +27,16 @@ MemoryHead::MemoryHead(const RayCaster& target, const Trajectory& trajectory, co
 
 void MemoryHead::run(TimeUs now_us, lcs::HeadMemory& memory) {
   watch_laser(now_us, memory);
-  const std::uint32_t asked = memory.commands.load();
-  if (asked != memory.done.load()) {
+  std::uint32_t answer = memory.answer.load();
+  command_ = lcs::value_of(memory.commands.load());
+  if (command_ != lcs::command_of(answer)) {
     running_ = false;
-    memory.samples.store(0);
-    memory.result.store(static_cast<std::uint32_t>(carry_out(memory)));
+    memory.samples.store(lcs::numbered(command_, 0));
+    answer = lcs::numbered(command_, static_cast<std::uint16_t>(carry_out(memory)));
   }
   scan_until(now_us, memory);
   tell_status(now_us, memory);
-  memory.done.store(asked);
+  memory.answer.store(answer);
 }
 
 // Its processor may hang: a head that nobody speaks to is dark.
@@ -48,11 +48,11 @@ void MemoryHead::watch_laser(TimeUs now_us, const lcs::HeadMemory& memory) {
   running_ = running_ && lit_;
 }
 
+// A frame that is not the command's own is one that is being written.
 lcs::Result MemoryHead::carry_out(const lcs::HeadMemory& memory) {
-  lcs::FrameDecoder decoder;
   lcs::Frame frame;
   lcs::StartCommand command;
-  if (!decoder.step(ConstBytes(memory.command), frame).found) return lcs::Result::kUnknown;
+  if (!memory.command.load(frame) || frame.sequence != lcs::sequence_of(command_)) return lcs::Result::kUnknown;
   if (frame.type == static_cast<std::uint8_t>(lcs::Type::kAbort)) return lcs::Result::kDone;
   if (frame.type != static_cast<std::uint8_t>(lcs::Type::kStart) || decode(frame, command) != Status::kOk) return lcs::Result::kUnknown;
   return start(command, memory);
@@ -78,7 +78,7 @@ void MemoryHead::measure(TimeUs t_us, lcs::HeadMemory& memory) {
   ByteWriter out{Bytes(memory.records[next_])};
   out.u32(raw.clock_us);
   write_sample(out, raw, raw.clock_us);
-  memory.samples.store(++next_);
+  memory.samples.store(lcs::numbered(command_, ++next_));
 }
 
 void MemoryHead::scan_until(TimeUs now_us, lcs::HeadMemory& memory) {
@@ -99,8 +99,7 @@ void MemoryHead::tell_status(TimeUs now_us, lcs::HeadMemory& memory) const {
   status.temperature_degC = camera_.temperature_degC;
   status.laser_lit = lit_;
   status.scanning = running_;
-  const lcs::FrameBytes frame = lcs::encode(0, status);
-  std::copy_n(frame.bytes, frame.size, memory.status);
+  memory.status.store(lcs::encode(lcs::sequence_of(command_), status));
 }
 
 // --- head, memory and driver

@@ -33,8 +33,9 @@ class MemoryHead {
   LcsCamera camera_;
   ScanPlan plan_;
   std::vector<AimedRay> aimed_;
-  TimeUs first_us_ = 0;     // of the first sample
-  std::uint16_t next_ = 0;  // ray
+  TimeUs first_us_ = 0;        // of the first sample
+  std::uint16_t next_ = 0;     // ray
+  std::uint16_t command_ = 0;  // number of the one that it has answered
   bool running_ = false, lit_ = false;
   std::uint32_t beats_ = 0;
   TimeUs heard_us_ = 0;  // when they last moved

@@ -21,28 +21,25 @@ class Head {
   explicit Head(HeadMemory& memory) : memory_(memory) {}
 
   Frame command() const {
-    FrameDecoder decoder;
     Frame frame;
-    EXPECT_TRUE(decoder.step(ConstBytes(memory_.command), frame).found);
+    EXPECT_TRUE(memory_.command.load(frame));
     return frame;
   }
+  std::uint16_t number() const { return value_of(memory_.commands.load()); }
   void say(bool scanning) {
     CameraStatus said = status;
     said.scanning = scanning;
-    const FrameBytes frame = encode(0, said);
-    std::copy_n(frame.bytes, frame.size, memory_.status);
+    memory_.status.store(encode(sequence_of(number()), said));
   }
-  void answer(Result result = Result::kDone) {
-    memory_.result.store(static_cast<std::uint32_t>(result));
-    memory_.done.store(memory_.commands.load());
-  }
+  void answer(Result result = Result::kDone) { memory_.answer.store(numbered(number(), static_cast<std::uint16_t>(result))); }
+  void count(std::uint16_t samples) { memory_.samples.store(numbered(number(), samples)); }
   // Records of a wall across the boresight, up to ray `end`.
   void measure(const ScanPlan& plan, std::uint16_t end) {
     for (std::uint16_t ray = 0; ray < end; ++ray) {
       RawSample raw = wall_.wall(plan, ray, 1).samples[0];
       record(ray, raw, static_cast<std::uint32_t>(kFirstUs + pattern_time_us(plan, ray)));
     }
-    memory_.samples.store(end);
+    count(end);
   }
   void record(std::uint16_t ray, const RawSample& sample, std::uint32_t clock_us) {
     RawSample raw = sample;
@@ -71,7 +68,7 @@ class LcsHeadDriver : public ::testing::Test {
   void begin(const ScanPlan& of) {
     ASSERT_EQ(driver.start(of, kStartUs), Status::kOk);
     head.say(true);
-    memory.samples.store(0);
+    head.count(0);
     head.answer();
   }
   SensorPoll poll(TimeUs now_us = kLaterUs) {
@@ -165,7 +162,7 @@ TEST_F(LcsHeadDriver, TellsTheHeadWhatToScanAndWhen) {
 }
 
 TEST_F(LcsHeadDriver, GoesOnFromWhatAnotherDriverHasLeft) {
-  memory.done.store(77);
+  memory.answer.store(numbered(77, 0));
   memory.commands.store(80);
   memory.laser.store(kLaserMayShine);
   HeadDriver next(memory, Optics(calibration()));
@@ -246,7 +243,51 @@ TEST_F(LcsHeadDriver, LosesAScanForItsReason) {
 
 TEST_F(LcsHeadDriver, WaitsForAnAnswerButNotForLong) {
   ASSERT_EQ(driver.start(plan, kStartUs), Status::kOk);
-  memory.samples.store(12);  // of the scan before
+  memory.samples.store(numbered(0, 12));  // of the scan before
+  const SensorPoll waiting = poll(kFirstUs + kAnswerTimeoutUs);
+  EXPECT_EQ(waiting.status, Status::kOk);
+  EXPECT_EQ(waiting.count, 0U);
+  EXPECT_EQ(poll(kFirstUs + kAnswerTimeoutUs + 1).status, Status::kTimeout);
+}
+
+// What is there of the scan before looks like a whole one of this.
+TEST_F(LcsHeadDriver, TakesNothingOfTheScanBeforeInWhateverOrderTheHeadWrites) {
+  VERIFIES("LASSO-LCS-022~1");
+  begin(plan);
+  head.measure(plan, plan.points);
+  head.say(false);
+  ASSERT_TRUE(poll().complete);
+  std::vector<int> order = {0, 1, 2};
+  do {
+    ASSERT_EQ(driver.start(plan, kStartUs), Status::kOk);
+    for (const int step : order) {
+      EXPECT_EQ(poll().count, 0U);
+      if (step == 0) head.answer();
+      if (step == 1) head.say(true);
+      if (step == 2) head.count(0);
+    }
+    EXPECT_EQ(poll().count, 0U);
+    head.measure(plan, plan.points);
+    head.say(false);
+    const SensorPoll last = poll();
+    EXPECT_TRUE(last.complete);
+    EXPECT_EQ(last.count, plan.points);
+  } while (std::next_permutation(order.begin(), order.end()));
+}
+
+TEST_F(LcsHeadDriver, AnAnswerOfTheScanBeforeRefusesNothing) {
+  ASSERT_EQ(driver.start(plan, kStartUs), Status::kOk);
+  head.answer(Result::kBusy);
+  expect_lost(Status::kBusy);
+  ASSERT_EQ(driver.start(plan, kStartUs), Status::kOk);
+  EXPECT_EQ(poll().status, Status::kOk);
+}
+
+TEST_F(LcsHeadDriver, AStatusOfAnotherCommandIsWaitedForAsAnAnswer) {
+  begin(plan);
+  head.measure(plan, plan.points);
+  CameraStatus other = head.status;
+  memory.status.store(encode(sequence_of(static_cast<std::uint16_t>(head.number() - 1)), other));
   const SensorPoll waiting = poll(kFirstUs + kAnswerTimeoutUs);
   EXPECT_EQ(waiting.status, Status::kOk);
   EXPECT_EQ(waiting.count, 0U);
@@ -265,7 +306,7 @@ TEST_F(LcsHeadDriver, NoticesAHeadThatEndsEarlyOrStartsAnew) {
   EXPECT_EQ(driver.counters().restarts, 1U);
   begin(plan);
   EXPECT_EQ(poll().status, Status::kOk) << "the boot is told once";
-  memory.samples.store(plan.points + 1U);
+  head.count(static_cast<std::uint16_t>(plan.points + 1));
   expect_lost(Status::kBadLength);
 }
 
@@ -285,11 +326,10 @@ TEST_F(LcsHeadDriver, BelievesNoOtherHead) {
 TEST_F(LcsHeadDriver, WaitsForAStatusThatIsWhole) {
   begin(plan);
   head.measure(plan, 10);
-  memory.status[7] ^= 1;
+  reinterpret_cast<std::uint8_t*>(&memory.status)[7] ^= 1;
   EXPECT_EQ(poll().count, 0U);
   EXPECT_EQ(driver.counters().damaged_frames, 1U);
-  const FrameBytes other = encode(0, ScanEnd{});
-  std::copy_n(other.bytes, other.size, memory.status);
+  memory.status.store(encode(0, ScanEnd{}));
   EXPECT_EQ(poll().count, 0U);
   EXPECT_EQ(driver.counters().damaged_frames, 2U);
   head.say(true);
@@ -391,6 +431,20 @@ TEST(LcsHeadDriverDeath, CalibrationThatIsNotValid) {
   bad.baseline_m = 0;
   HeadMemory memory;
   EXPECT_DEATH(HeadDriver(memory, Optics(bad)), "lcs calibration");
+}
+
+TEST(SharedFrame, IsWholeOrNone) {
+  SharedFrame shared;
+  Frame frame;
+  EXPECT_FALSE(shared.load(frame)) << "nothing was stored";
+  const FrameBytes sent = encode(7, CameraStatus{});
+  shared.store(sent);
+  ASSERT_TRUE(shared.load(frame));
+  EXPECT_EQ(frame.sequence, 7);
+  FrameBytes half = encode(8, CameraStatus{});
+  half.size /= 2;
+  shared.store(half);
+  EXPECT_FALSE(shared.load(frame)) << "half of it is the one before";
 }
 
 TEST(SharedWord, HasItsHighestByteFirst) {
