@@ -29,13 +29,21 @@ bool read_status(const HeadMemory& head, CameraStatus& status, std::uint8_t& seq
   return found && decode(frame, status) == Status::kOk;
 }
 
+// Before the first one that a new driver gives: that is then neither the last one of the driver before, which may be open yet, nor what the
+// head has last answered, whatever the memory holds.
+std::uint16_t number_before_first(const HeadMemory& head) {
+  const std::uint16_t given = value_of(head.commands.load());
+  const auto next = static_cast<std::uint16_t>(given + 1);
+  return command_of(head.answer.load()) == next ? next : given;
+}
+
 }  // namespace
 
 HeadDriver::HeadDriver(HeadMemory& head, const Optics& optics)
-    : head_(head), made_(optics), optics_(optics), commands_(command_of(head.answer.load())) {
+    : head_(head), made_(optics), optics_(optics), commands_(number_before_first(head)) {
   invariant(optics.validate() == Status::kOk, "lcs calibration");
-  head_.commands.store(commands_);
   show_laser();
+  give(encode(next_sequence(), Type::kAbort));  // whatever was before
 }
 
 // --- what the head is told

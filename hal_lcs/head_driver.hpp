@@ -15,7 +15,8 @@ namespace lasso::lcs {
 
 class HeadDriver final : public Sensor {
  public:
-  // `optics` are valid (an invariant); the memory outlives the driver, and may be as another driver has left it.
+  // `optics` are valid (an invariant). The memory outlives the driver, and may hold anything: what another driver has left, or what power
+  // has. Dark is written at once, and an abort is given.
   HeadDriver(HeadMemory& head, const Optics& optics);
 
   // As Driver's: none at first, in three voted copies that each start repairs. With each call without permission the laser's word is

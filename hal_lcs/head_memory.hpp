@@ -5,6 +5,10 @@
 // What the head writes says which command it is of: `answer` and `samples` in their high halves, `status` by its sequence. So the driver
 // takes nothing of an earlier scan for its own, in whatever order they are written. The order that it asks for besides: a record before
 // the count of `samples` that has it, and that count before a status that no longer says `scanning`.
+//
+// Nobody initialises it, and it outlives restarts of either end. A driver that starts writes dark, and gives an abort under a number that
+// neither the last command nor the last answer has. A head that starts leaves `answer` and `samples` as they are, and carries out a
+// command when its number is another than that of `answer`; a frame that is damaged, or has another sequence, it refuses.
 #pragma once
 
 #include <atomic>
@@ -43,19 +47,22 @@ class SharedFrame {
  public:
   void store(const FrameBytes& frame) {
     std::atomic_thread_fence(std::memory_order_release);
-    for (std::size_t i = 0; i < frame.size; ++i) bytes_[i].store(frame.bytes[i], std::memory_order_relaxed);
+    for (std::size_t i = 0; i < frame.size; ++i) bytes_[i].value.store(frame.bytes[i], std::memory_order_relaxed);
   }
   // Whether there is a whole one.
   bool load(Frame& frame) const {
     std::uint8_t bytes[kMaxFrame];
-    for (std::size_t i = 0; i < kMaxFrame; ++i) bytes[i] = bytes_[i].load(std::memory_order_relaxed);
+    for (std::size_t i = 0; i < kMaxFrame; ++i) bytes[i] = bytes_[i].value.load(std::memory_order_relaxed);
     std::atomic_thread_fence(std::memory_order_acquire);
     FrameDecoder decoder;
     return decoder.step(ConstBytes(bytes), frame).found;
   }
 
  private:
-  std::atomic<std::uint8_t> bytes_[kMaxFrame] = {};
+  struct Byte {
+    std::atomic<std::uint8_t> value{0};
+  };
+  Byte bytes_[kMaxFrame];
 };
 
 // A word that says which command it is of: the number in its high half, the value in its low one.

@@ -78,7 +78,7 @@ def sizes(gate, elf, board):
         if len(words) == 3 and words[0].startswith('.'):
             total[words[0]] = int(words[1])
     image = sum(total.get(name, 0) for name in ('.vectors', '.text', '.rodata', '.init_array', '.board_id', '.data'))
-    memory = sum(total.get(name, 0) for name in ('.estimation_stack', '.kept', '.data', '.bss', '.acquisition_stack'))
+    memory = sum(total.get(name, 0) for name in ('.estimation_stack', '.kept', '.head', '.data', '.bss', '.acquisition_stack'))
     return image, memory
 
 

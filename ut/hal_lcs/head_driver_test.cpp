@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -153,24 +154,47 @@ TEST_F(LcsHeadDriver, TellsTheHeadWhatToScanAndWhen) {
   EXPECT_EQ(last.f32(), -0.02F);
   EXPECT_EQ(head.command().sequence, memory.commands.load());
   EXPECT_EQ(driver.start(plan, kStartUs), Status::kBusy);
+  const std::uint32_t started = memory.commands.load();
   driver.abort();
-  EXPECT_EQ(memory.commands.load(), 2U);
+  EXPECT_EQ(memory.commands.load(), started + 1);
   driver.abort();
-  EXPECT_EQ(memory.commands.load(), 2U) << "idle";
+  EXPECT_EQ(memory.commands.load(), started + 1) << "idle";
   plan.half_x = -1;
   EXPECT_EQ(driver.start(plan, kStartUs), validate(plan));
 }
 
 TEST_F(LcsHeadDriver, GoesOnFromWhatAnotherDriverHasLeft) {
-  memory.answer.store(numbered(77, 0));
-  memory.commands.store(80);
-  memory.laser.store(kLaserMayShine);
+  constexpr std::uint32_t kLeft[][3] = {{80, 80, 81},        // commands, answered: the first one of the next driver
+                                        {80, 79, 81},        // one is open, and may be answered yet
+                                        {80, 81, 82},        // after power-on
+                                        {0x1234FFFF, 7, 0},  // wraps
+                                        {0x1234FFFF, 0, 1}};
+  for (const auto& [commands, answered, first] : kLeft) {
+    memory.commands.store(commands);
+    memory.answer.store(numbered(static_cast<std::uint16_t>(answered), 0));
+    memory.laser.store(kLaserMayShine);
+    HeadDriver next(memory, Optics(calibration()));
+    EXPECT_EQ(memory.commands.load(), first);
+    EXPECT_EQ(head.command().type, static_cast<std::uint8_t>(Type::kAbort));
+    EXPECT_EQ(head.command().sequence, sequence_of(head.number()));
+    EXPECT_NE(memory.laser.load(), kLaserMayShine);
+    next.permit_laser(true);
+    ASSERT_EQ(next.start(plan, kStartUs), Status::kOk);
+    EXPECT_EQ(memory.commands.load(), first + 1);
+    EXPECT_EQ(next.poll(kLaterUs, Span<RangeSample>(out)).count, 0U) << "nobody has answered";
+  }
+}
+
+TEST_F(LcsHeadDriver, MakesDoWithWhateverTheMemoryHoldsAtPowerOn) {
+  std::memset(static_cast<void*>(&memory), 0xA5, sizeof memory);
   HeadDriver next(memory, Optics(calibration()));
-  EXPECT_EQ(memory.commands.load(), 77U) << "no command is open";
-  EXPECT_NE(memory.laser.load(), kLaserMayShine);
   next.permit_laser(true);
   ASSERT_EQ(next.start(plan, kStartUs), Status::kOk);
-  EXPECT_EQ(memory.commands.load(), 78U);
+  EXPECT_EQ(next.poll(kLaterUs, Span<RangeSample>(out)).count, 0U);
+  head.say(true);
+  head.answer();
+  head.measure(plan, plan.points);
+  EXPECT_TRUE(next.poll(kLaterUs, Span<RangeSample>(out)).complete);
 }
 
 TEST_F(LcsHeadDriver, LetsTheLaserShineOnlyWithPermission) {
