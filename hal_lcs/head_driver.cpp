@@ -83,7 +83,7 @@ Status HeadDriver::start(const ScanPlan& plan, TimeUs t_start_us) {
   if (status != Status::kOk) return status;
   if (!laser_permitted()) return Status::kMissing;
   running_ = true;
-  scan_ = Scan{plan, t_start_us + kStartDelayUs, t_start_us, 0, 0, 0};
+  scan_ = Scan{plan, t_start_us + kStartDelayUs, t_start_us, 0, 0, 0, false};
   ByteWriter{Bytes(head_.first_us)}.u64(static_cast<std::uint64_t>(scan_.first_us));
   write_aimed(plan.aimed, head_);
   give(encode(next_sequence(), start_command(plan)));
@@ -104,15 +104,17 @@ std::uint32_t HeadDriver::samples_there() const {
   return command_of(samples) == commands_ ? value_of(samples) : 0U;
 }
 
-// Of another head than the calibration's nothing is believed.
+// Of another head than the calibration's nothing is believed. A boot before the scan's first status is of no scan: the head that answered
+// is the one that scans.
 Status HeadDriver::take(const CameraStatus& status) {
   if (status.serial != optics_.serial() || status.device != optics_.device() || status.version != kProtocolVersion)
     return Status::kBadVersion;
   const bool booted = boots_ != 0 && status.boots != boots_;
   boots_ = status.boots;
   if (booted) ++counters_.restarts;
-  if (booted) return Status::kBadOrder;
-  if (scan_.there == 0) optics_.set_temperature(static_cast<double>(status.temperature_degC));
+  if (booted && scan_.begun) return Status::kBadOrder;
+  if (!scan_.begun) optics_.set_temperature(static_cast<double>(status.temperature_degC));
+  scan_.begun = true;
   scan_.there = samples_there();
   if (scan_.there > scan_.plan.points) return Status::kBadLength;
   return status.scanning || scan_.there == scan_.plan.points ? Status::kOk : Status::kTruncated;

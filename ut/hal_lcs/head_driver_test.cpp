@@ -324,6 +324,7 @@ TEST_F(LcsHeadDriver, NoticesAHeadThatEndsEarlyOrStartsAnew) {
   head.say(false);
   expect_lost(Status::kTruncated);
   begin(plan);
+  EXPECT_EQ(poll().status, Status::kOk);
   head.status.boots = 2;
   head.say(true);
   expect_lost(Status::kBadOrder);
@@ -332,6 +333,16 @@ TEST_F(LcsHeadDriver, NoticesAHeadThatEndsEarlyOrStartsAnew) {
   EXPECT_EQ(poll().status, Status::kOk) << "the boot is told once";
   head.count(static_cast<std::uint16_t>(plan.points + 1));
   expect_lost(Status::kBadLength);
+}
+
+TEST_F(LcsHeadDriver, ABootBetweenScansIsCountedAndCostsNone) {
+  for (const std::uint32_t boots : {0U, 1U, 2U, 2U, 5U}) {  // 0: as long as none is known
+    head.status.boots = boots;
+    begin(plan);
+    head.measure(plan, plan.points);
+    EXPECT_TRUE(poll().complete);
+  }
+  EXPECT_EQ(driver.counters().restarts, 2U);
 }
 
 TEST_F(LcsHeadDriver, BelievesNoOtherHead) {
