@@ -9,6 +9,8 @@
 // Nobody initialises it, and it outlives restarts of either end. A driver that starts writes dark, and gives an abort under a number that
 // neither the last command nor the last answer has. A head that starts leaves `answer` and `samples` as they are, and carries out a
 // command when its number is another than that of `answer`; a frame that is damaged, or has another sequence, it refuses.
+//
+// What is no frame has no checksum: a bit that flips in first_us, aimed or records shows where a sample is against the plan or the pose.
 #pragma once
 
 #include <atomic>
