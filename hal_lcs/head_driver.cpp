@@ -43,7 +43,7 @@ HeadDriver::HeadDriver(HeadMemory& head, const Optics& optics)
     : head_(head), made_(optics), optics_(optics), commands_(number_before_first(head)) {
   invariant(optics.validate() == Status::kOk, "lcs calibration");
   show_laser();
-  give(encode(next_sequence(), Type::kAbort));  // whatever was before
+  inhibit();  // whatever was before
 }
 
 // --- what the head is told
@@ -54,11 +54,18 @@ bool HeadDriver::laser_permitted() const {
   return laser_.get(permitted) && permitted != 0;
 }
 
-// With each call: a word that a disturbance has changed is right again, and the head hears that somebody is there.
+// With each call: a word that a disturbance has changed is right again, the head hears that somebody is there, and one that says that it is
+// lit though it may not be is told by a command, too.
 void HeadDriver::show_laser() {
-  head_.laser.store(laser_permitted() ? kLaserMayShine : 0);
+  const bool permitted = laser_permitted();
+  head_.laser.store(permitted ? kLaserMayShine : 0);
   head_.beats.store(head_.beats.load() + 1);
+  CameraStatus status;
+  std::uint8_t sequence = 0;
+  if (!permitted && read_status(head_, status, sequence) && status.laser_lit) inhibit();
 }
+
+void HeadDriver::inhibit() { give(encode(next_sequence(), LaserCommand::kInhibit)); }
 
 void HeadDriver::permit_laser(bool permitted) {
   laser_.set(permitted ? 1 : 0);
@@ -91,9 +98,9 @@ Status HeadDriver::start(const ScanPlan& plan, TimeUs t_start_us) {
 }
 
 void HeadDriver::abort() {
-  show_laser();
   if (running_) give(encode(next_sequence(), Type::kAbort));
   running_ = false;
+  show_laser();
 }
 
 // --- what it says

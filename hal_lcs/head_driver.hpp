@@ -16,11 +16,11 @@ namespace lasso::lcs {
 class HeadDriver final : public Sensor {
  public:
   // `optics` are valid (an invariant). The memory outlives the driver, and may hold anything: what another driver has left, or what power
-  // has. Dark is written at once, and an abort is given.
+  // has. Dark is written at once, and an inhibit is given.
   HeadDriver(HeadMemory& head, const Optics& optics);
 
   // As Driver's: none at first, in three voted copies that each start repairs. With each call without permission the laser's word is
-  // written dark.
+  // written dark, and a head whose status says that it is lit is given an inhibit.
   void permit_laser(bool permitted) override;
   void use_calibration(const TriangulationCalibration* calibration) override;
 
@@ -45,6 +45,7 @@ class HeadDriver final : public Sensor {
 
   bool laser_permitted() const;
   void show_laser();
+  void inhibit();
   std::uint8_t next_sequence() const { return sequence_of(static_cast<std::uint16_t>(commands_ + 1)); }
   void give(const FrameBytes& command);
   Status unanswered(TimeUs now_us) const;

@@ -6,9 +6,10 @@
 // takes nothing of an earlier scan for its own, in whatever order they are written. The order that it asks for besides: a record before
 // the count of `samples` that has it, and that count before a status that no longer says `scanning`.
 //
-// Nobody initialises it, and it outlives restarts of either end. A driver that starts writes dark, and gives an abort under a number that
-// neither the last command nor the last answer has. A head that starts leaves `answer` and `samples` as they are, and carries out a
-// command when its number is another than that of `answer`; a frame that is damaged, or has another sequence, it refuses.
+// Nobody initialises it, and it outlives restarts of either end. A driver that starts writes dark, and gives an inhibit under a number
+// that neither the last command nor the last answer has. A head that starts is dark until `beats` have moved since; it leaves `answer` and
+// `samples` as they are, and carries out a command when its number is another than that of `answer`; a frame that is damaged, or has
+// another sequence, it refuses.
 //
 // What is no frame has no checksum: a bit that flips in first_us, aimed or records shows where a sample is against the plan or the pose.
 #pragma once
@@ -80,10 +81,12 @@ constexpr std::size_t kRecordBytes = 4 + kSampleBytes;
 
 struct HeadMemory {
   // --- the processor's
-  SharedWord laser;                           // kLaserMayShine, or dark, which ends a scan
-  SharedWord beats;                           // counts calls of the driver: where it stands still for kUnheardUs the head is dark by itself
-  SharedWord commands;                        // its low half: the number of the last one, modulo 2^16; the one below is whole by then
-  SharedFrame command;                        // a StartCommand, whose delay does not count, or kAbort; sequence_of(its number)
+  SharedWord laser;     // kLaserMayShine, or dark, which ends a scan
+  SharedWord beats;     // counts calls of the driver: the head is dark where they have not moved for kUnheardUs
+  SharedWord commands;  // its low half: the number of the last one, modulo 2^16; the one below is whole by then
+  // A StartCommand, whose delay does not count, kAbort, or LaserCommand::kInhibit, which keeps the head dark until the next start, whatever
+  // `laser` says; sequence_of(its number).
+  SharedFrame command;
   std::uint8_t first_us[8] = {};              // of a start: when the first sample is to be taken
   std::uint8_t aimed[kMaxAimedRays][8] = {};  // of a start: its aimed rays, f32 x, f32 y
 

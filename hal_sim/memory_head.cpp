@@ -42,10 +42,10 @@ void MemoryHead::run(TimeUs now_us, lcs::HeadMemory& memory) {
 // Its processor may hang: a head that nobody speaks to is dark.
 void MemoryHead::watch_laser(TimeUs now_us, const lcs::HeadMemory& memory) {
   const std::uint32_t beats = memory.beats.load();
-  if (beats != beats_) heard_us_ = now_us;
+  if (beats_ && *beats_ != beats) heard_us_ = now_us;
   beats_ = beats;
-  lit_ = memory.laser.load() == lcs::kLaserMayShine && now_us - heard_us_ <= lcs::kUnheardUs;
-  running_ = running_ && lit_;
+  permitted_ = memory.laser.load() == lcs::kLaserMayShine && heard_us_ && now_us - *heard_us_ <= lcs::kUnheardUs;
+  running_ = running_ && lit();
 }
 
 // A frame that is not the command's own is one that is being written.
@@ -54,12 +54,22 @@ lcs::Result MemoryHead::carry_out(const lcs::HeadMemory& memory) {
   lcs::StartCommand command;
   if (!memory.command.load(frame) || frame.sequence != lcs::sequence_of(command_)) return lcs::Result::kUnknown;
   if (frame.type == static_cast<std::uint8_t>(lcs::Type::kAbort)) return lcs::Result::kDone;
+  if (frame.type == static_cast<std::uint8_t>(lcs::Type::kLaser)) return inhibit(frame);
   if (frame.type != static_cast<std::uint8_t>(lcs::Type::kStart) || decode(frame, command) != Status::kOk) return lcs::Result::kUnknown;
   return start(command, memory);
 }
 
+// Nothing arms and fires here.
+lcs::Result MemoryHead::inhibit(const lcs::Frame& frame) {
+  lcs::LaserCommand command{};
+  if (decode(frame, command) != Status::kOk || command != lcs::LaserCommand::kInhibit) return lcs::Result::kUnknown;
+  inhibited_ = true;
+  return lcs::Result::kDone;
+}
+
 lcs::Result MemoryHead::start(const lcs::StartCommand& command, const lcs::HeadMemory& memory) {
-  if (!lit_) return lcs::Result::kInhibited;
+  inhibited_ = false;
+  if (!lit()) return lcs::Result::kInhibited;
   if (command.aimed > kMaxAimedRays) return lcs::Result::kBadPlan;
   aimed_ = read_aimed(memory, command.aimed);
   plan_ = command.plan;
@@ -97,7 +107,7 @@ void MemoryHead::tell_status(TimeUs now_us, lcs::HeadMemory& memory) const {
   status.boots = 1;
   status.clock_us = static_cast<std::uint32_t>(now_us);
   status.temperature_degC = camera_.temperature_degC;
-  status.laser_lit = lit_;
+  status.laser_lit = lit();
   status.scanning = running_;
   memory.status.store(lcs::encode(lcs::sequence_of(command_), status));
 }

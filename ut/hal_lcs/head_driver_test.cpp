@@ -26,6 +26,11 @@ class Head {
     EXPECT_TRUE(memory_.command.load(frame));
     return frame;
   }
+  bool is_inhibited() const {
+    LaserCommand said = LaserCommand::kFire;
+    return command().type == static_cast<std::uint8_t>(Type::kLaser) && decode(command(), said) == Status::kOk &&
+           said == LaserCommand::kInhibit;
+  }
   std::uint16_t number() const { return value_of(memory_.commands.load()); }
   void say(bool scanning) {
     CameraStatus said = status;
@@ -175,7 +180,7 @@ TEST_F(LcsHeadDriver, GoesOnFromWhatAnotherDriverHasLeft) {
     memory.laser.store(kLaserMayShine);
     HeadDriver next(memory, Optics(calibration()));
     EXPECT_EQ(memory.commands.load(), first);
-    EXPECT_EQ(head.command().type, static_cast<std::uint8_t>(Type::kAbort));
+    EXPECT_TRUE(head.is_inhibited());
     EXPECT_EQ(head.command().sequence, sequence_of(head.number()));
     EXPECT_NE(memory.laser.load(), kLaserMayShine);
     next.permit_laser(true);
@@ -198,7 +203,7 @@ TEST_F(LcsHeadDriver, MakesDoWithWhateverTheMemoryHoldsAtPowerOn) {
 }
 
 TEST_F(LcsHeadDriver, LetsTheLaserShineOnlyWithPermission) {
-  VERIFIES("LASSO-LCS-006~1");
+  VERIFIES("LASSO-LCS-006~1 LASSO-LCS-023~1");
   EXPECT_EQ(memory.laser.load(), kLaserMayShine);
   begin(plan);
   head.measure(plan, 10);
@@ -214,7 +219,48 @@ TEST_F(LcsHeadDriver, LetsTheLaserShineOnlyWithPermission) {
   EXPECT_NE(memory.laser.load(), kLaserMayShine);
 }
 
+TEST_F(LcsHeadDriver, InhibitsAHeadThatSaysItIsLitWithoutPermission) {
+  VERIFIES("LASSO-LCS-023~1");
+  std::uint16_t given = head.number();
+  const auto inhibited = [&] {
+    const bool some = head.number() != given;
+    given = head.number();
+    return some && head.is_inhibited();
+  };
+  head.status.laser_lit = true;
+  head.say(false);
+  poll();
+  EXPECT_FALSE(inhibited()) << "it may";
+  driver.permit_laser(false);
+  EXPECT_TRUE(inhibited());
+  poll();
+  EXPECT_TRUE(inhibited()) << "with each call";
+  EXPECT_EQ(driver.start(plan, kStartUs), Status::kMissing);
+  EXPECT_TRUE(inhibited());
+  driver.abort();
+  EXPECT_TRUE(inhibited());
+  head.status.laser_lit = false;
+  head.say(false);
+  poll();
+  EXPECT_FALSE(inhibited()) << "it is dark";
+  head.status.laser_lit = true;
+  head.say(false);
+  reinterpret_cast<std::uint8_t*>(&memory.status)[7] ^= 1;
+  poll();
+  EXPECT_FALSE(inhibited()) << "nobody knows";
+}
+
+TEST_F(LcsHeadDriver, TheLastWordOfAScanWithoutPermissionIsAnInhibit) {
+  VERIFIES("LASSO-LCS-023~1");
+  head.status.laser_lit = true;
+  begin(plan);
+  driver.permit_laser(false);
+  EXPECT_EQ(poll().status, Status::kMissing);
+  EXPECT_TRUE(head.is_inhibited());
+}
+
 TEST_F(LcsHeadDriver, IsHeardWithEachCall) {
+  VERIFIES("LASSO-LCS-023~1");
   std::uint32_t beats = memory.beats.load();
   const auto beaten = [&] {
     const std::uint32_t before = beats;

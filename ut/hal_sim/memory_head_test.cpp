@@ -35,6 +35,8 @@ INSTANTIATE_TEST_SUITE_P(All, InMemory, ::testing::Values(lcs::Device::kLaserCam
                          device_name);
 
 struct HeadRig {
+  HeadRig() { head.run(0, memory); }
+
   HeadScene scene;
   LcsCamera camera = head_of(lcs::Device::kLaserCamera);
   MemoryHead head{*scene.caster, scene.motion, noisy_head(), kHeadSeed, camera};
@@ -50,11 +52,18 @@ struct HeadRig {
     EXPECT_EQ(lcs::command_of(memory.answer.load()), lcs::value_of(memory.commands.load()));
     return static_cast<lcs::Result>(lcs::value_of(memory.answer.load()));
   }
+  bool says_lit() const {
+    lcs::Frame frame;
+    lcs::CameraStatus status;
+    EXPECT_TRUE(memory.status.load(frame));
+    EXPECT_EQ(decode(frame, status), Status::kOk);
+    return status.laser_lit;
+  }
   Status poll(TimeUs now_us) { return driver.poll(now_us, {out.data(), out.size()}).status; }
 };
 
 TEST(MemoryHead, IsDarkWithoutPermissionOrAProcessor) {
-  VERIFIES("LASSO-LCS-018~1");
+  VERIFIES("LASSO-LCS-023~1");
   HeadRig rig;
   rig.driver.permit_laser(true);
   const AimedRays none;
@@ -72,6 +81,39 @@ TEST(MemoryHead, IsDarkWithoutPermissionOrAProcessor) {
   rig.driver.permit_laser(false);
   // A start that the driver would not have given.
   EXPECT_EQ(rig.result_of(lcs::encode(rig.next_sequence(), lcs::StartCommand{}), kHeadStartUs + 4'000'000), lcs::Result::kInhibited);
+}
+
+TEST(MemoryHead, IsDarkFromItsBootUntilTheProcessorIsHeard) {
+  VERIFIES("LASSO-LCS-023~1");
+  HeadRig rig;
+  rig.driver.permit_laser(true);
+  MemoryHead anew(*rig.scene.caster, rig.scene.motion, noisy_head(), kHeadSeed, rig.camera);
+  anew.run(kHeadStartUs, rig.memory);
+  EXPECT_FALSE(rig.says_lit()) << "the word is of before";
+  anew.run(kHeadStartUs + 1, rig.memory);
+  EXPECT_FALSE(rig.says_lit());
+  rig.driver.permit_laser(true);
+  const AimedRays none;
+  ASSERT_EQ(rig.driver.start(odd_plan(1, none), kHeadStartUs), Status::kOk);
+  anew.run(kHeadStartUs + 2, rig.memory);
+  EXPECT_TRUE(rig.says_lit());
+}
+
+TEST(MemoryHead, IsDarkFromAnInhibitToTheNextStartWhateverTheWordSays) {
+  VERIFIES("LASSO-LCS-023~1");
+  HeadRig rig;
+  rig.driver.permit_laser(true);
+  EXPECT_EQ(rig.result_of(lcs::encode(rig.next_sequence(), lcs::StartCommand{})), lcs::Result::kDone);
+  EXPECT_TRUE(rig.says_lit());
+  EXPECT_EQ(rig.result_of(lcs::encode(rig.next_sequence(), lcs::LaserCommand::kFire)), lcs::Result::kUnknown);
+  EXPECT_TRUE(rig.says_lit());
+  EXPECT_EQ(rig.result_of(lcs::encode(rig.next_sequence(), lcs::LaserCommand::kInhibit)), lcs::Result::kDone);
+  EXPECT_EQ(rig.memory.laser.load(), lcs::kLaserMayShine);
+  EXPECT_FALSE(rig.says_lit());
+  EXPECT_EQ(rig.result_of(lcs::encode(rig.next_sequence(), lcs::Type::kAbort)), lcs::Result::kDone);
+  EXPECT_FALSE(rig.says_lit());
+  EXPECT_EQ(rig.result_of(lcs::encode(rig.next_sequence(), lcs::StartCommand{})), lcs::Result::kDone);
+  EXPECT_TRUE(rig.says_lit());
 }
 
 TEST(MemoryHead, RefusesWhatItCannotScan) {
