@@ -67,8 +67,10 @@ void HeadDriver::show_laser() {
 
 void HeadDriver::inhibit() { give(encode(next_sequence(), LaserCommand::kInhibit)); }
 
+// A scan that was forbidden once is lost, whatever is permitted before the next poll.
 void HeadDriver::permit_laser(bool permitted) {
   laser_.set(permitted ? 1 : 0);
+  scan_.forbidden = scan_.forbidden || !permitted;
   show_laser();
 }
 
@@ -90,7 +92,7 @@ Status HeadDriver::start(const ScanPlan& plan, TimeUs t_start_us) {
   if (status != Status::kOk) return status;
   if (!laser_permitted()) return Status::kMissing;
   running_ = true;
-  scan_ = Scan{plan, t_start_us + kStartDelayUs, t_start_us, 0, 0, 0, false};
+  scan_ = Scan{plan, t_start_us + kStartDelayUs, t_start_us, 0, 0, 0, false, false};
   ByteWriter{Bytes(head_.first_us)}.u64(static_cast<std::uint64_t>(scan_.first_us));
   write_aimed(plan.aimed, head_);
   give(encode(next_sequence(), start_command(plan)));
@@ -132,7 +134,7 @@ Status HeadDriver::unanswered(TimeUs now_us) const { return now_us - scan_.first
 
 // Why the scan is lost, if it is.
 Status HeadDriver::listen(TimeUs now_us) {
-  if (!laser_permitted()) return Status::kMissing;
+  if (scan_.forbidden || !laser_permitted()) return Status::kMissing;
   const std::uint32_t answer = head_.answer.load();
   if (command_of(answer) != commands_) return unanswered(now_us);
   const Status refusal = reason_of(value_of(answer));

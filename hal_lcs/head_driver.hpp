@@ -40,7 +40,8 @@ class HeadDriver final : public Sensor {
     std::uint32_t next = 0;   // sample to hand over
     std::uint32_t there = 0;  // samples that the head has
     std::uint32_t off_plan = 0;
-    bool begun = false;  // a status of it has come
+    bool begun = false;      // a status of it has come
+    bool forbidden = false;  // permission was taken since its start
   };
 
   bool laser_permitted() const;

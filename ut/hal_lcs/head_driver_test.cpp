@@ -219,6 +219,19 @@ TEST_F(LcsHeadDriver, LetsTheLaserShineOnlyWithPermission) {
   EXPECT_NE(memory.laser.load(), kLaserMayShine);
 }
 
+TEST_F(LcsHeadDriver, AScanIsLostThoughPermissionIsBackBeforeItIsMissed) {
+  VERIFIES("LASSO-LCS-006~1");
+  begin(plan);
+  head.measure(plan, plan.points);
+  driver.permit_laser(false);
+  driver.permit_laser(true);
+  expect_lost(Status::kMissing);
+  begin(plan);
+  driver.permit_laser(true);
+  head.measure(plan, plan.points);
+  EXPECT_TRUE(poll().complete) << "the next one is not";
+}
+
 TEST_F(LcsHeadDriver, InhibitsAHeadThatSaysItIsLitWithoutPermission) {
   VERIFIES("LASSO-LCS-023~1");
   std::uint16_t given = head.number();
@@ -291,9 +304,10 @@ TEST_F(LcsHeadDriver, AFlippedBitOfThePermissionChangesNothing) {
     EXPECT_TRUE(std::equal(copies, copies + 3, found)) << "repaired: " << bit;
     driver.abort();
   }
+  begin(plan);
   found[0] = 5;
   found[1] = ~7u;
-  poll();
+  EXPECT_EQ(poll().status, Status::kMissing);
   EXPECT_NE(memory.laser.load(), kLaserMayShine) << "what no two copies say is no permission";
   EXPECT_EQ(driver.start(plan, kStartUs), Status::kMissing);
 }
