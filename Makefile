@@ -431,7 +431,7 @@ seu-sample: ## board: eight of them, one in each region
 # $(call proof,FOLDER[,CMAKE OPTIONS]) builds the flight image with its call graph: the one that make pil flies.
 define proof
 $(call configure,$(1),$(strip $(FLIGHT_BOARD) $(2)))
-$(call compile,$(1),flight_603e)
+$(call compile,$(1),flight_603e in_sensor_603e)
 @cfg/toolchains/take_call_graphs $(1)
 $(call tidy,$(1),ci)
 endef

@@ -1,7 +1,6 @@
 #include "hal_lcs/driver.hpp"
 
 #include "fsw/core/invariant.hpp"
-#include "fsw/sense/pattern.hpp"
 #include "hal_lcs/plan_check.hpp"
 
 namespace lasso::lcs {
@@ -9,14 +8,6 @@ namespace {
 
 constexpr double kBitsPerByte = 10;
 constexpr std::size_t kCommandBytes = 128;  // self-test, status, laser, start
-
-// As the plan, but for its aimed rays, which follow the command.
-StartCommand start_command(const ScanPlan& plan) {
-  StartCommand command;
-  command.aimed = static_cast<std::uint16_t>(plan.aimed.size());
-  command.plan = plan;
-  return command;
-}
 
 std::size_t aim_bytes(const ScanPlan& plan) { return (plan.aimed.size() + kAimedPerFrame - 1) / kAimedPerFrame * kMaxFrame; }
 
@@ -277,17 +268,14 @@ void Driver::take(const ScanEnd& end) {
 
 void Driver::convert(const RawSample& raw, RangeSample& sample) {
   const TimeUs t_us = tie_.time_of(raw.clock_us);
-  const DurationUs late_us =
-      t_us - (scan_.t_start_us + scan_.first_us + pattern_time_us(scan_.plan, static_cast<std::uint16_t>(scan_.next)));
   const Fate fate = optics_.convert(raw, t_us, sample);
-  if (t_us >= scan_.last_us && late_us <= kClockToleranceUs && late_us >= -kClockToleranceUs) {
+  if (follows_time(scan_.plan, static_cast<std::uint16_t>(scan_.next), scan_.t_start_us + scan_.first_us, scan_.last_us, t_us)) {
     scan_.last_us = t_us;
     ++health_.fates[static_cast<std::size_t>(fate)];
     return;
   }
   ++health_.bad_times;
-  sample = RangeSample{};
-  sample.t_us = scan_.last_us;
+  sample = invalid_sample(scan_.last_us);
 }
 
 // Of the ray scan_.next: as it came, or lost, if a later one is there or the scan has ended.
@@ -295,9 +283,8 @@ void Driver::next_sample(RangeSample& sample) {
   if (scan_.taken < scan_.pending.count && scan_.pending.first + scan_.taken == scan_.next)
     return convert(scan_.pending.samples[scan_.taken++], sample);
   ++health_.samples_lost;
-  sample = RangeSample{};
+  sample = invalid_sample(scan_.last_us);
   sample.state = RayState::kLost;
-  sample.t_us = scan_.last_us;
 }
 
 // What is known of the scan's next samples, into `out` from `count` on.

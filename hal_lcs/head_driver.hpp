@@ -15,11 +15,12 @@ namespace lasso::lcs {
 
 class HeadDriver final : public Sensor {
  public:
-  // `optics` are valid (an invariant); the memory outlives the driver, and may be as another driver has left it.
+  // `optics` are valid (an invariant). The memory outlives the driver, and may hold anything: what another driver has left, or what power
+  // has. Dark is written at once, and an inhibit is given.
   HeadDriver(HeadMemory& head, const Optics& optics);
 
   // As Driver's: none at first, in three voted copies that each start repairs. With each call without permission the laser's word is
-  // written dark.
+  // written dark, and a head whose status says that it is lit is given an inhibit.
   void permit_laser(bool permitted) override;
   void use_calibration(const TriangulationCalibration* calibration) override;
 
@@ -39,20 +40,26 @@ class HeadDriver final : public Sensor {
     std::uint32_t next = 0;   // sample to hand over
     std::uint32_t there = 0;  // samples that the head has
     std::uint32_t off_plan = 0;
+    bool begun = false;      // a status of it has come
+    bool forbidden = false;  // permission was taken since its start
   };
 
   bool laser_permitted() const;
   void show_laser();
+  void inhibit();
+  std::uint8_t next_sequence() const { return sequence_of(static_cast<std::uint16_t>(commands_ + 1)); }
   void give(const FrameBytes& command);
+  Status unanswered(TimeUs now_us) const;
   Status listen(TimeUs now_us);
+  std::uint32_t samples_there() const;
   Status take(const CameraStatus& status);
   void hand_over(RangeSample& sample);
-  void convert(const RawSample& raw, TimeUs t_us, RangeSample& sample);
+  void convert(const RawSample& raw, std::uint16_t ray, TimeUs t_us, RangeSample& sample);
 
   HeadMemory& head_;
   Optics made_, optics_;          // as it was made, and as they are believed
   Voted<std::uint8_t> laser_{0};  // 1: permitted
-  std::uint32_t commands_;        // given
+  std::uint16_t commands_;        // number of the last one given, modulo 2^16
   std::uint32_t boots_ = 0;       // of the head, as it last said; 0: never
   bool running_ = false;
   Scan scan_;

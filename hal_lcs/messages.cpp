@@ -107,6 +107,13 @@ Status read_sample(ByteReader& in, std::uint32_t base_us, RawSample& sample) {
   return Status::kOk;
 }
 
+StartCommand start_command(const ScanPlan& plan) {
+  StartCommand command;
+  command.aimed = static_cast<std::uint16_t>(plan.aimed.size());
+  command.plan = plan;
+  return command;
+}
+
 FrameBytes encode(std::uint8_t sequence, Type without_payload) { return Writer().frame(sequence, without_payload); }
 
 FrameBytes encode(std::uint8_t sequence, LaserCommand message) {

@@ -55,6 +55,8 @@ struct StartCommand {
   std::uint16_t aimed = 0;     // rays that follow by kAim; they are in the middle of the scan, so that there is time
   ScanPlan plan;               // without its aimed rays; its points count them
 };
+// The command for a plan, without delay; the plan's aimed rays are counted, and pass by themselves.
+StartCommand start_command(const ScanPlan& plan);
 
 // The scan's tag, which comes back with its samples.
 constexpr std::uint8_t tag_of(std::uint32_t scan_id) { return static_cast<std::uint8_t>(scan_id & 0xFFU); }

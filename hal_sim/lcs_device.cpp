@@ -207,12 +207,6 @@ lcs::Result LcsDevice::carry_out(lcs::LaserCommand command, TimeUs t_us) {
   return armed ? lcs::Result::kDone : lcs::Result::kNotArmed;
 }
 
-bool LcsDevice::within_mirrors(const ScanPlan& plan) const {
-  constexpr double kRounded = 1 + 1.0 / (1 << 22);  // the plan's numbers have 24 bits
-  const double limit = kRounded * std::tan(optics_of(camera_).mirrors().max_rad);
-  return std::abs(plan.center_x) + plan.half_x <= limit && std::abs(plan.center_y) + plan.half_y <= limit;
-}
-
 lcs::Result LcsDevice::carry_out(const lcs::StartCommand& command, TimeUs t_us) {
   if (scan_.running) return lcs::Result::kBusy;
   if (!laser_lit_) return lcs::Result::kInhibited;
@@ -221,7 +215,7 @@ lcs::Result LcsDevice::carry_out(const lcs::StartCommand& command, TimeUs t_us) 
   scan.aimed.resize(std::min<std::size_t>(command.aimed, kMaxAimedRays));
   scan.aimed_there.resize(scan.aimed.size());
   scan.command.plan.aimed = Span<const AimedRay>(scan.aimed.data(), scan.aimed.size());
-  if (scan.aimed.size() != command.aimed || validate(scan.command.plan) != Status::kOk || !within_mirrors(scan.command.plan)) {
+  if (scan.aimed.size() != command.aimed || validate(scan.command.plan) != Status::kOk || !within_mirrors(camera_, scan.command.plan)) {
     return lcs::Result::kBadPlan;
   }
   scan.t_first_us = t_us + command.delay_us;

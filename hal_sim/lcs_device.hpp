@@ -55,7 +55,6 @@ class LcsDevice {
   lcs::Result carry_out(lcs::LaserCommand command, TimeUs t_us);
   lcs::Result carry_out(const lcs::StartCommand& command, TimeUs t_us);
   void carry_out(const lcs::AimCommand& command);
-  bool within_mirrors(const ScanPlan& plan) const;
   void answer(const lcs::Frame& to, lcs::Result result, TimeUs t_us);
   void send_status(TimeUs t_us);
   void send_table(const lcs::Frame& asked, TimeUs t_us);

@@ -58,6 +58,12 @@ lcs::Optics optics_of(const LcsCamera& camera) {
   return optics;
 }
 
+bool within_mirrors(const LcsCamera& camera, const ScanPlan& plan) {
+  constexpr double kRounded = 1 + 1.0 / (1 << 22);  // the plan's numbers have 24 bits
+  const double limit = kRounded * std::tan(optics_of(camera).mirrors().max_rad);
+  return std::abs(plan.center_x) + plan.half_x <= limit && std::abs(plan.center_y) + plan.half_y <= limit;
+}
+
 lcs::RawSample raw_of(const LcsCamera& camera, const Vec3& direction, const RangeSample& seen) {
   const auto temperature_degC = static_cast<double>(camera.temperature_degC), range_m = static_cast<double>(seen.range_m);
   const bool spot = seen.state == RayState::kHit;

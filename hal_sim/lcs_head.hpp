@@ -21,6 +21,8 @@ struct LcsCamera {
 
 // Of those of the camera's members that its kind has. Throws std::invalid_argument for optics that are not valid.
 lcs::Optics optics_of(const LcsCamera& camera);
+// Whether the camera's mirrors reach the plan's corners.
+bool within_mirrors(const LcsCamera& camera, const ScanPlan& plan);
 
 // The raw sample by which a camera tells a point at `range_m` along `direction` (any range for kNothing).
 lcs::RawSample raw_sample(const lcs::Calibration& truth, double temperature_degC, const Vec3& direction, double range_m);

@@ -1,7 +1,5 @@
 #include "hal_sim/memory_head.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "fsw/sense/pattern.hpp"
@@ -29,49 +27,54 @@ MemoryHead::MemoryHead(const RayCaster& target, const Trajectory& trajectory, co
 
 void MemoryHead::run(TimeUs now_us, lcs::HeadMemory& memory) {
   watch_laser(now_us, memory);
-  const std::uint32_t asked = memory.commands.load();
-  if (asked != memory.done.load()) {
+  std::uint32_t answer = memory.answer.load();
+  command_ = lcs::value_of(memory.commands.load());
+  if (command_ != lcs::command_of(answer)) {
     running_ = false;
-    memory.samples.store(0);
-    memory.result.store(static_cast<std::uint32_t>(carry_out(memory)));
+    memory.samples.store(lcs::numbered(command_, 0));
+    answer = lcs::numbered(command_, static_cast<std::uint16_t>(carry_out(memory)));
   }
   scan_until(now_us, memory);
   tell_status(now_us, memory);
-  memory.done.store(asked);
+  memory.answer.store(answer);
 }
 
 // Its processor may hang: a head that nobody speaks to is dark.
 void MemoryHead::watch_laser(TimeUs now_us, const lcs::HeadMemory& memory) {
   const std::uint32_t beats = memory.beats.load();
-  if (beats != beats_) heard_us_ = now_us;
+  if (beats_ && *beats_ != beats) heard_us_ = now_us;
   beats_ = beats;
-  lit_ = memory.laser.load() == lcs::kLaserMayShine && now_us - heard_us_ <= lcs::kUnheardUs;
-  running_ = running_ && lit_;
+  permitted_ = memory.laser.load() == lcs::kLaserMayShine && heard_us_ && now_us - *heard_us_ <= lcs::kUnheardUs;
+  running_ = running_ && lit();
 }
 
+// A frame that is not the command's own is one that is being written.
 lcs::Result MemoryHead::carry_out(const lcs::HeadMemory& memory) {
-  lcs::FrameDecoder decoder;
   lcs::Frame frame;
   lcs::StartCommand command;
-  if (!decoder.step(ConstBytes(memory.command), frame).found) return lcs::Result::kUnknown;
+  if (!memory.command.load(frame) || frame.sequence != lcs::sequence_of(command_)) return lcs::Result::kUnknown;
   if (frame.type == static_cast<std::uint8_t>(lcs::Type::kAbort)) return lcs::Result::kDone;
+  if (frame.type == static_cast<std::uint8_t>(lcs::Type::kLaser)) return inhibit(frame);
   if (frame.type != static_cast<std::uint8_t>(lcs::Type::kStart) || decode(frame, command) != Status::kOk) return lcs::Result::kUnknown;
   return start(command, memory);
 }
 
-bool MemoryHead::within_mirrors(const ScanPlan& plan) const {
-  constexpr double kRounded = 1 + 1.0 / (1 << 22);  // the plan's numbers have 24 bits
-  const double limit = kRounded * std::tan(optics_of(camera_).mirrors().max_rad);
-  return std::abs(plan.center_x) + plan.half_x <= limit && std::abs(plan.center_y) + plan.half_y <= limit;
+// Nothing arms and fires here.
+lcs::Result MemoryHead::inhibit(const lcs::Frame& frame) {
+  lcs::LaserCommand command{};
+  if (decode(frame, command) != Status::kOk || command != lcs::LaserCommand::kInhibit) return lcs::Result::kUnknown;
+  inhibited_ = true;
+  return lcs::Result::kDone;
 }
 
 lcs::Result MemoryHead::start(const lcs::StartCommand& command, const lcs::HeadMemory& memory) {
-  if (!lit_) return lcs::Result::kInhibited;
+  inhibited_ = false;
+  if (!lit()) return lcs::Result::kInhibited;
   if (command.aimed > kMaxAimedRays) return lcs::Result::kBadPlan;
   aimed_ = read_aimed(memory, command.aimed);
   plan_ = command.plan;
   plan_.aimed = Span<const AimedRay>(aimed_.data(), aimed_.size());
-  if (validate(plan_) != Status::kOk || !within_mirrors(plan_)) return lcs::Result::kBadPlan;
+  if (validate(plan_) != Status::kOk || !within_mirrors(camera_, plan_)) return lcs::Result::kBadPlan;
   first_us_ = static_cast<TimeUs>(ByteReader{ConstBytes(memory.first_us)}.u64());
   next_ = 0;
   running_ = true;
@@ -85,7 +88,7 @@ void MemoryHead::measure(TimeUs t_us, lcs::HeadMemory& memory) {
   ByteWriter out{Bytes(memory.records[next_])};
   out.u32(raw.clock_us);
   write_sample(out, raw, raw.clock_us);
-  memory.samples.store(++next_);
+  memory.samples.store(lcs::numbered(command_, ++next_));
 }
 
 void MemoryHead::scan_until(TimeUs now_us, lcs::HeadMemory& memory) {
@@ -104,10 +107,9 @@ void MemoryHead::tell_status(TimeUs now_us, lcs::HeadMemory& memory) const {
   status.boots = 1;
   status.clock_us = static_cast<std::uint32_t>(now_us);
   status.temperature_degC = camera_.temperature_degC;
-  status.laser_lit = lit_;
+  status.laser_lit = lit();
   status.scanning = running_;
-  const lcs::FrameBytes frame = lcs::encode(0, status);
-  std::copy_n(frame.bytes, frame.size, memory.status);
+  memory.status.store(lcs::encode(lcs::sequence_of(command_), status));
 }
 
 // --- head, memory and driver

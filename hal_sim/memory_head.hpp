@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "hal_lcs/head_driver.hpp"
@@ -18,14 +19,16 @@ class MemoryHead {
   MemoryHead(const RayCaster& target, const Trajectory& trajectory, const ScannerModel& model, std::uint64_t seed, const LcsCamera& camera,
              OtherBodies others = {});
 
-  // What was written since the last call was written now: a command is carried out, and all that is measured by now is there.
+  // What was written since the last call was written now: a command is carried out, and all that is measured by now is there. Beats are
+  // known from the first call on.
   void run(TimeUs now_us, lcs::HeadMemory& memory);
 
  private:
+  bool lit() const { return permitted_ && !inhibited_; }
   void watch_laser(TimeUs now_us, const lcs::HeadMemory& memory);
   lcs::Result carry_out(const lcs::HeadMemory& memory);
+  lcs::Result inhibit(const lcs::Frame& frame);
   lcs::Result start(const lcs::StartCommand& command, const lcs::HeadMemory& memory);
-  bool within_mirrors(const ScanPlan& plan) const;
   void measure(TimeUs t_us, lcs::HeadMemory& memory);
   void scan_until(TimeUs now_us, lcs::HeadMemory& memory);
   void tell_status(TimeUs now_us, lcs::HeadMemory& memory) const;
@@ -34,17 +37,20 @@ class MemoryHead {
   LcsCamera camera_;
   ScanPlan plan_;
   std::vector<AimedRay> aimed_;
-  TimeUs first_us_ = 0;     // of the first sample
-  std::uint16_t next_ = 0;  // ray
-  bool running_ = false, lit_ = false;
-  std::uint32_t beats_ = 0;
-  TimeUs heard_us_ = 0;  // when they last moved
+  TimeUs first_us_ = 0;        // of the first sample
+  std::uint16_t next_ = 0;     // ray
+  std::uint16_t command_ = 0;  // number of the one that it has answered
+  bool running_ = false;
+  bool permitted_ = false;              // by the word, and the beats
+  bool inhibited_ = false;              // by a command, until the next start
+  std::optional<std::uint32_t> beats_;  // as last seen
+  std::optional<TimeUs> heard_us_;      // when they last moved; never since it was made, which is its boot
 };
 
 // The head, the memory and the driver in one sensor, for what runs in simulated time.
 class SensorInMemory final : public Sensor {
  public:
-  SensorInMemory(MemoryHead& head, const lcs::Optics& optics) : head_(head), driver_(memory_, optics) {}
+  SensorInMemory(MemoryHead& head, const lcs::Optics& optics) : head_(head), driver_(memory_, optics) { head_.run(0, memory_); }
 
   Status start(const ScanPlan& plan, TimeUs t_start_us) override;
   SensorPoll poll(TimeUs now_us, Span<RangeSample> out) override;

@@ -12,7 +12,8 @@ namespace lasso::bare {
 // Serial ports (board.hpp) of the camera's line, and of the one that has commands and telemetry.
 extern const std::uint32_t camera_port, ground_port;
 
-// Of either driver: what lies where in memory does not depend on the image (ft/pil/seu.py).
+// Of either driver. What lies where in memory is the same in all images with line_head.cpp (ft/pil/seu.py flips bits in these); in that of
+// own_head.cpp the head's memory comes before.
 struct alignas(lcs::Driver) alignas(lcs::HeadDriver) DriverMemory {
   std::uint8_t bytes[sizeof(lcs::Driver) > sizeof(lcs::HeadDriver) ? sizeof(lcs::Driver) : sizeof(lcs::HeadDriver)];
 };

@@ -1,11 +1,11 @@
 #include <array>
 #include <memory>
 
+#include "bsp/bare/head.hpp"
 #include "bsp/bare/ram_store.hpp"
 #include "fsw/exec/link_pump.hpp"
 #include "fsw/exec/start_image.hpp"
 #include "ft/pil/boards.hpp"
-#include "hal_lcs/head_driver.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
 
@@ -48,12 +48,6 @@ struct Host {
     expect(component->begin(mdat::kEpochUs), "begin");
   }
 
-  static lcs::Calibration calibration() {
-    lcs::Calibration design;
-    design.serial = 1;
-    return design;
-  }
-
   Sensor& sensor(Head head) {
     if (head == Head::kAtLine) return line_driver;
     return head_driver;
@@ -85,9 +79,9 @@ struct Host {
   bare::RamStore store;
   std::vector<std::uint8_t> code;  // as much as the target has: the scrub's pass takes as long
   lcs::Line line;
-  lcs::Driver line_driver{line, lcs::Optics(calibration())};
+  lcs::Driver line_driver{line, lcs::Optics(bare::design_calibration())};
   lcs::HeadMemory head_memory;
-  lcs::HeadDriver head_driver{head_memory, lcs::Optics(calibration())};
+  lcs::HeadDriver head_driver{head_memory, lcs::Optics(bare::design_calibration())};
   std::unique_ptr<Component> component;
   MemoryLink link;
   LinkPump pump{*component, link};

@@ -1,4 +1,4 @@
-"""The report of a processor-in-the-loop run: one page, the two number types and the second board side by side: the time of each stage against the frame, and figures."""
+"""The report of a processor-in-the-loop run: one page, its flights side by side: the time of each stage against the frame, and figures."""
 import html as text
 
 from platform_limits import limit
@@ -76,10 +76,14 @@ def table(results):
         f'<tr><td>{line[0][0]}</td>{"".join(f"<td>{value}</td>" for _, value in line)}</tr>' for line in lines) + '</table>'
 
 
+def flown(numbers):
+    said = '; '.join(NUMBERS[number] for number in numbers)
+    return f'{said[0].upper()}{said[1:]}: on the PowerPC 603e where no other board is named, {"each beside its own host" if len(numbers) > 1 else "beside its host"}.'
+
+
 def html(flights, budget, made):
     """`flights`: results and frames of each number type. `made`: by what, of what."""
     pictures = ''.join(f'<h2>{NUMBERS[number][0].upper()}{NUMBERS[number][1:]}</h2>{picture(frames, budget, r["mips"], r["period_ms"])}' for number, (r, frames) in flights.items())
     return (f'<!doctype html><meta charset="utf-8"><title>3DLASSO on bare boards</title><style>body{{font-family:sans-serif;max-width:{WIDTH}px;margin:2em auto}}'
-            f'td,th{{padding:.2em 1em .2em 0;vertical-align:top;text-align:left}}td:first-child{{width:36%}}</style><h1>3DLASSO on bare boards</h1><p>Both number types of the per-point path on the PowerPC 603e, and floating point on the Cortex-A9, '
-            f'each beside its own host. Time of each stage in each frame, against the frame.</p>{pictures}<h2>Side by side</h2>'
+            f'td,th{{padding:.2em 1em .2em 0;vertical-align:top;text-align:left}}td:first-child{{width:36%}}</style><h1>3DLASSO on bare boards</h1><p>{flown(flights)} Time of each stage in each frame, against the frame.</p>{pictures}<h2>Side by side</h2>'
             f'{table({number: r for number, (r, _) in flights.items()})}<p>Counts of instructions: the emulator knows neither caches nor a pipeline. {text.escape(made)}.</p>\n')

@@ -34,7 +34,7 @@ FLIGHTS = 'float', 'fixed', 'cortexa9'  # of a run; in_sensor is one by itself, 
 IN_SENSOR = 'in_sensor', 'in_sensor_cortexa9'
 NUMBERS = {'float': 'float', 'fixed': 'fixed', 'cortexa9': 'float', 'in_sensor': 'float', 'in_sensor_cortexa9': 'float'}
 BOARDS = {'float': PPC603E, 'fixed': PPC603E, 'cortexa9': CORTEXA9, 'in_sensor': PPC603E, 'in_sensor_cortexa9': CORTEXA9}
-PROOFS = {'float': 'prove', 'fixed': 'fixed-point/prove', 'in_sensor': 'prove'}  # of all drivers, whose stack counts as the interface's
+PROOFS = {'float': 'prove', 'fixed': 'fixed-point/prove', 'in_sensor': 'prove'}  # of both images: drivers are held to what their interface counts
 PIPELINE_FRAMES = 2  # of the rig's
 IDLE_HELD = 'float', 'in_sensor'  # LASSO-PLT-016: fixed point is for a processor without a floating-point unit (docs/pil.md)
 VALID = re.compile(r'\d+ poses, (\d+) valid')
@@ -78,7 +78,7 @@ def sizes(gate, elf, board):
         if len(words) == 3 and words[0].startswith('.'):
             total[words[0]] = int(words[1])
     image = sum(total.get(name, 0) for name in ('.vectors', '.text', '.rodata', '.init_array', '.board_id', '.data'))
-    memory = sum(total.get(name, 0) for name in ('.estimation_stack', '.kept', '.data', '.bss', '.acquisition_stack'))
+    memory = sum(total.get(name, 0) for name in ('.estimation_stack', '.kept', '.head', '.data', '.bss', '.acquisition_stack'))
     return image, memory
 
 

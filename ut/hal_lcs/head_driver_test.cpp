@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -21,28 +22,30 @@ class Head {
   explicit Head(HeadMemory& memory) : memory_(memory) {}
 
   Frame command() const {
-    FrameDecoder decoder;
     Frame frame;
-    EXPECT_TRUE(decoder.step(ConstBytes(memory_.command), frame).found);
+    EXPECT_TRUE(memory_.command.load(frame));
     return frame;
   }
+  bool is_inhibited() const {
+    LaserCommand said = LaserCommand::kFire;
+    return command().type == static_cast<std::uint8_t>(Type::kLaser) && decode(command(), said) == Status::kOk &&
+           said == LaserCommand::kInhibit;
+  }
+  std::uint16_t number() const { return value_of(memory_.commands.load()); }
   void say(bool scanning) {
     CameraStatus said = status;
     said.scanning = scanning;
-    const FrameBytes frame = encode(0, said);
-    std::copy_n(frame.bytes, frame.size, memory_.status);
+    memory_.status.store(encode(sequence_of(number()), said));
   }
-  void answer(Result result = Result::kDone) {
-    memory_.result.store(static_cast<std::uint32_t>(result));
-    memory_.done.store(memory_.commands.load());
-  }
+  void answer(Result result = Result::kDone) { memory_.answer.store(numbered(number(), static_cast<std::uint16_t>(result))); }
+  void count(std::uint16_t samples) { memory_.samples.store(numbered(number(), samples)); }
   // Records of a wall across the boresight, up to ray `end`.
   void measure(const ScanPlan& plan, std::uint16_t end) {
     for (std::uint16_t ray = 0; ray < end; ++ray) {
       RawSample raw = wall_.wall(plan, ray, 1).samples[0];
       record(ray, raw, static_cast<std::uint32_t>(kFirstUs + pattern_time_us(plan, ray)));
     }
-    memory_.samples.store(end);
+    count(end);
   }
   void record(std::uint16_t ray, const RawSample& sample, std::uint32_t clock_us) {
     RawSample raw = sample;
@@ -71,7 +74,7 @@ class LcsHeadDriver : public ::testing::Test {
   void begin(const ScanPlan& of) {
     ASSERT_EQ(driver.start(of, kStartUs), Status::kOk);
     head.say(true);
-    memory.samples.store(0);
+    head.count(0);
     head.answer();
   }
   SensorPoll poll(TimeUs now_us = kLaterUs) {
@@ -156,28 +159,51 @@ TEST_F(LcsHeadDriver, TellsTheHeadWhatToScanAndWhen) {
   EXPECT_EQ(last.f32(), -0.02F);
   EXPECT_EQ(head.command().sequence, memory.commands.load());
   EXPECT_EQ(driver.start(plan, kStartUs), Status::kBusy);
+  const std::uint32_t started = memory.commands.load();
   driver.abort();
-  EXPECT_EQ(memory.commands.load(), 2U);
+  EXPECT_EQ(memory.commands.load(), started + 1);
   driver.abort();
-  EXPECT_EQ(memory.commands.load(), 2U) << "idle";
+  EXPECT_EQ(memory.commands.load(), started + 1) << "idle";
   plan.half_x = -1;
   EXPECT_EQ(driver.start(plan, kStartUs), validate(plan));
 }
 
 TEST_F(LcsHeadDriver, GoesOnFromWhatAnotherDriverHasLeft) {
-  memory.done.store(77);
-  memory.commands.store(80);
-  memory.laser.store(kLaserMayShine);
+  constexpr std::uint32_t kLeft[][3] = {{80, 80, 81},        // commands, answered: the first one of the next driver
+                                        {80, 79, 81},        // one is open, and may be answered yet
+                                        {80, 81, 82},        // after power-on
+                                        {0x1234FFFF, 7, 0},  // wraps
+                                        {0x1234FFFF, 0, 1}};
+  for (const auto& [commands, answered, first] : kLeft) {
+    memory.commands.store(commands);
+    memory.answer.store(numbered(static_cast<std::uint16_t>(answered), 0));
+    memory.laser.store(kLaserMayShine);
+    HeadDriver next(memory, Optics(calibration()));
+    EXPECT_EQ(memory.commands.load(), first);
+    EXPECT_TRUE(head.is_inhibited());
+    EXPECT_EQ(head.command().sequence, sequence_of(head.number()));
+    EXPECT_NE(memory.laser.load(), kLaserMayShine);
+    next.permit_laser(true);
+    ASSERT_EQ(next.start(plan, kStartUs), Status::kOk);
+    EXPECT_EQ(memory.commands.load(), first + 1);
+    EXPECT_EQ(next.poll(kLaterUs, Span<RangeSample>(out)).count, 0U) << "nobody has answered";
+  }
+}
+
+TEST_F(LcsHeadDriver, MakesDoWithWhateverTheMemoryHoldsAtPowerOn) {
+  std::memset(static_cast<void*>(&memory), 0xA5, sizeof memory);
   HeadDriver next(memory, Optics(calibration()));
-  EXPECT_EQ(memory.commands.load(), 77U) << "no command is open";
-  EXPECT_NE(memory.laser.load(), kLaserMayShine);
   next.permit_laser(true);
   ASSERT_EQ(next.start(plan, kStartUs), Status::kOk);
-  EXPECT_EQ(memory.commands.load(), 78U);
+  EXPECT_EQ(next.poll(kLaterUs, Span<RangeSample>(out)).count, 0U);
+  head.say(true);
+  head.answer();
+  head.measure(plan, plan.points);
+  EXPECT_TRUE(next.poll(kLaterUs, Span<RangeSample>(out)).complete);
 }
 
 TEST_F(LcsHeadDriver, LetsTheLaserShineOnlyWithPermission) {
-  VERIFIES("LASSO-LCS-006~1");
+  VERIFIES("LASSO-LCS-006~1 LASSO-LCS-023~1");
   EXPECT_EQ(memory.laser.load(), kLaserMayShine);
   begin(plan);
   head.measure(plan, 10);
@@ -193,7 +219,61 @@ TEST_F(LcsHeadDriver, LetsTheLaserShineOnlyWithPermission) {
   EXPECT_NE(memory.laser.load(), kLaserMayShine);
 }
 
+TEST_F(LcsHeadDriver, AScanIsLostThoughPermissionIsBackBeforeItIsMissed) {
+  VERIFIES("LASSO-LCS-006~1");
+  begin(plan);
+  head.measure(plan, plan.points);
+  driver.permit_laser(false);
+  driver.permit_laser(true);
+  expect_lost(Status::kMissing);
+  begin(plan);
+  driver.permit_laser(true);
+  head.measure(plan, plan.points);
+  EXPECT_TRUE(poll().complete) << "the next one is not";
+}
+
+TEST_F(LcsHeadDriver, InhibitsAHeadThatSaysItIsLitWithoutPermission) {
+  VERIFIES("LASSO-LCS-023~1");
+  std::uint16_t given = head.number();
+  const auto inhibited = [&] {
+    const bool some = head.number() != given;
+    given = head.number();
+    return some && head.is_inhibited();
+  };
+  head.status.laser_lit = true;
+  head.say(false);
+  poll();
+  EXPECT_FALSE(inhibited()) << "it may";
+  driver.permit_laser(false);
+  EXPECT_TRUE(inhibited());
+  poll();
+  EXPECT_TRUE(inhibited()) << "with each call";
+  EXPECT_EQ(driver.start(plan, kStartUs), Status::kMissing);
+  EXPECT_TRUE(inhibited());
+  driver.abort();
+  EXPECT_TRUE(inhibited());
+  head.status.laser_lit = false;
+  head.say(false);
+  poll();
+  EXPECT_FALSE(inhibited()) << "it is dark";
+  head.status.laser_lit = true;
+  head.say(false);
+  reinterpret_cast<std::uint8_t*>(&memory.status)[7] ^= 1;
+  poll();
+  EXPECT_FALSE(inhibited()) << "nobody knows";
+}
+
+TEST_F(LcsHeadDriver, TheLastWordOfAScanWithoutPermissionIsAnInhibit) {
+  VERIFIES("LASSO-LCS-023~1");
+  head.status.laser_lit = true;
+  begin(plan);
+  driver.permit_laser(false);
+  EXPECT_EQ(poll().status, Status::kMissing);
+  EXPECT_TRUE(head.is_inhibited());
+}
+
 TEST_F(LcsHeadDriver, IsHeardWithEachCall) {
+  VERIFIES("LASSO-LCS-023~1");
   std::uint32_t beats = memory.beats.load();
   const auto beaten = [&] {
     const std::uint32_t before = beats;
@@ -224,9 +304,10 @@ TEST_F(LcsHeadDriver, AFlippedBitOfThePermissionChangesNothing) {
     EXPECT_TRUE(std::equal(copies, copies + 3, found)) << "repaired: " << bit;
     driver.abort();
   }
+  begin(plan);
   found[0] = 5;
   found[1] = ~7u;
-  poll();
+  EXPECT_EQ(poll().status, Status::kMissing);
   EXPECT_NE(memory.laser.load(), kLaserMayShine) << "what no two copies say is no permission";
   EXPECT_EQ(driver.start(plan, kStartUs), Status::kMissing);
 }
@@ -246,7 +327,51 @@ TEST_F(LcsHeadDriver, LosesAScanForItsReason) {
 
 TEST_F(LcsHeadDriver, WaitsForAnAnswerButNotForLong) {
   ASSERT_EQ(driver.start(plan, kStartUs), Status::kOk);
-  memory.samples.store(12);  // of the scan before
+  memory.samples.store(numbered(0, 12));  // of the scan before
+  const SensorPoll waiting = poll(kFirstUs + kAnswerTimeoutUs);
+  EXPECT_EQ(waiting.status, Status::kOk);
+  EXPECT_EQ(waiting.count, 0U);
+  EXPECT_EQ(poll(kFirstUs + kAnswerTimeoutUs + 1).status, Status::kTimeout);
+}
+
+// What is there of the scan before looks like a whole one of this.
+TEST_F(LcsHeadDriver, TakesNothingOfTheScanBeforeInWhateverOrderTheHeadWrites) {
+  VERIFIES("LASSO-LCS-022~1");
+  begin(plan);
+  head.measure(plan, plan.points);
+  head.say(false);
+  ASSERT_TRUE(poll().complete);
+  std::vector<int> order = {0, 1, 2};
+  do {
+    ASSERT_EQ(driver.start(plan, kStartUs), Status::kOk);
+    for (const int step : order) {
+      EXPECT_EQ(poll().count, 0U);
+      if (step == 0) head.answer();
+      if (step == 1) head.say(true);
+      if (step == 2) head.count(0);
+    }
+    EXPECT_EQ(poll().count, 0U);
+    head.measure(plan, plan.points);
+    head.say(false);
+    const SensorPoll last = poll();
+    EXPECT_TRUE(last.complete);
+    EXPECT_EQ(last.count, plan.points);
+  } while (std::next_permutation(order.begin(), order.end()));
+}
+
+TEST_F(LcsHeadDriver, AnAnswerOfTheScanBeforeRefusesNothing) {
+  ASSERT_EQ(driver.start(plan, kStartUs), Status::kOk);
+  head.answer(Result::kBusy);
+  expect_lost(Status::kBusy);
+  ASSERT_EQ(driver.start(plan, kStartUs), Status::kOk);
+  EXPECT_EQ(poll().status, Status::kOk);
+}
+
+TEST_F(LcsHeadDriver, AStatusOfAnotherCommandIsWaitedForAsAnAnswer) {
+  begin(plan);
+  head.measure(plan, plan.points);
+  CameraStatus other = head.status;
+  memory.status.store(encode(sequence_of(static_cast<std::uint16_t>(head.number() - 1)), other));
   const SensorPoll waiting = poll(kFirstUs + kAnswerTimeoutUs);
   EXPECT_EQ(waiting.status, Status::kOk);
   EXPECT_EQ(waiting.count, 0U);
@@ -259,14 +384,25 @@ TEST_F(LcsHeadDriver, NoticesAHeadThatEndsEarlyOrStartsAnew) {
   head.say(false);
   expect_lost(Status::kTruncated);
   begin(plan);
+  EXPECT_EQ(poll().status, Status::kOk);
   head.status.boots = 2;
   head.say(true);
   expect_lost(Status::kBadOrder);
   EXPECT_EQ(driver.counters().restarts, 1U);
   begin(plan);
   EXPECT_EQ(poll().status, Status::kOk) << "the boot is told once";
-  memory.samples.store(plan.points + 1U);
+  head.count(static_cast<std::uint16_t>(plan.points + 1));
   expect_lost(Status::kBadLength);
+}
+
+TEST_F(LcsHeadDriver, ABootBetweenScansIsCountedAndCostsNone) {
+  for (const std::uint32_t boots : {0U, 1U, 2U, 2U, 5U}) {  // 0: as long as none is known
+    head.status.boots = boots;
+    begin(plan);
+    head.measure(plan, plan.points);
+    EXPECT_TRUE(poll().complete);
+  }
+  EXPECT_EQ(driver.counters().restarts, 2U);
 }
 
 TEST_F(LcsHeadDriver, BelievesNoOtherHead) {
@@ -285,11 +421,10 @@ TEST_F(LcsHeadDriver, BelievesNoOtherHead) {
 TEST_F(LcsHeadDriver, WaitsForAStatusThatIsWhole) {
   begin(plan);
   head.measure(plan, 10);
-  memory.status[7] ^= 1;
+  reinterpret_cast<std::uint8_t*>(&memory.status)[7] ^= 1;
   EXPECT_EQ(poll().count, 0U);
   EXPECT_EQ(driver.counters().damaged_frames, 1U);
-  const FrameBytes other = encode(0, ScanEnd{});
-  std::copy_n(other.bytes, other.size, memory.status);
+  memory.status.store(encode(0, ScanEnd{}));
   EXPECT_EQ(poll().count, 0U);
   EXPECT_EQ(driver.counters().damaged_frames, 2U);
   head.say(true);
@@ -391,6 +526,20 @@ TEST(LcsHeadDriverDeath, CalibrationThatIsNotValid) {
   bad.baseline_m = 0;
   HeadMemory memory;
   EXPECT_DEATH(HeadDriver(memory, Optics(bad)), "lcs calibration");
+}
+
+TEST(SharedFrame, IsWholeOrNone) {
+  SharedFrame shared;
+  Frame frame;
+  EXPECT_FALSE(shared.load(frame)) << "nothing was stored";
+  const FrameBytes sent = encode(7, CameraStatus{});
+  shared.store(sent);
+  ASSERT_TRUE(shared.load(frame));
+  EXPECT_EQ(frame.sequence, 7);
+  FrameBytes half = encode(8, CameraStatus{});
+  half.size /= 2;
+  shared.store(half);
+  EXPECT_FALSE(shared.load(frame)) << "half of it is the one before";
 }
 
 TEST(SharedWord, HasItsHighestByteFirst) {

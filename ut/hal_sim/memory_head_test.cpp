@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <stdexcept>
 #include <vector>
 
@@ -36,6 +35,8 @@ INSTANTIATE_TEST_SUITE_P(All, InMemory, ::testing::Values(lcs::Device::kLaserCam
                          device_name);
 
 struct HeadRig {
+  HeadRig() { head.run(0, memory); }
+
   HeadScene scene;
   LcsCamera camera = head_of(lcs::Device::kLaserCamera);
   MemoryHead head{*scene.caster, scene.motion, noisy_head(), kHeadSeed, camera};
@@ -43,11 +44,26 @@ struct HeadRig {
   lcs::HeadDriver driver{memory, optics_of(camera)};
   std::vector<RangeSample> out = std::vector<RangeSample>(kMaxSamplesPerPoll);
 
+  std::uint8_t next_sequence() const { return lcs::sequence_of(static_cast<std::uint16_t>(lcs::value_of(memory.commands.load()) + 1)); }
+  lcs::Result result_of(const lcs::FrameBytes& command, TimeUs now_us = kHeadStartUs) {
+    memory.command.store(command);
+    memory.commands.store(memory.commands.load() + 1);
+    head.run(now_us, memory);
+    EXPECT_EQ(lcs::command_of(memory.answer.load()), lcs::value_of(memory.commands.load()));
+    return static_cast<lcs::Result>(lcs::value_of(memory.answer.load()));
+  }
+  bool says_lit() const {
+    lcs::Frame frame;
+    lcs::CameraStatus status;
+    EXPECT_TRUE(memory.status.load(frame));
+    EXPECT_EQ(decode(frame, status), Status::kOk);
+    return status.laser_lit;
+  }
   Status poll(TimeUs now_us) { return driver.poll(now_us, {out.data(), out.size()}).status; }
 };
 
 TEST(MemoryHead, IsDarkWithoutPermissionOrAProcessor) {
-  VERIFIES("LASSO-LCS-018~1");
+  VERIFIES("LASSO-LCS-023~1");
   HeadRig rig;
   rig.driver.permit_laser(true);
   const AimedRays none;
@@ -57,38 +73,64 @@ TEST(MemoryHead, IsDarkWithoutPermissionOrAProcessor) {
   rig.head.run(kHeadStartUs, rig.memory);
   rig.head.run(kHeadStartUs + lcs::kUnheardUs, rig.memory);
   const std::uint32_t there = rig.memory.samples.load();
-  EXPECT_GT(there, 500U);
+  EXPECT_GT(lcs::value_of(there), 500U);
   rig.head.run(kHeadStartUs + lcs::kUnheardUs + 500'000, rig.memory);
   EXPECT_EQ(rig.memory.samples.load(), there) << "the processor hangs";
   EXPECT_EQ(rig.poll(kHeadStartUs + lcs::kUnheardUs + 500'000), Status::kTruncated);
 
   rig.driver.permit_laser(false);
-  rig.memory.commands.store(rig.memory.commands.load() + 1);  // a start that the driver would not have given
-  const lcs::FrameBytes start = lcs::encode(0, lcs::StartCommand{});
-  std::copy_n(start.bytes, start.size, rig.memory.command);
-  rig.head.run(kHeadStartUs + 4'000'000, rig.memory);
-  EXPECT_EQ(rig.memory.result.load(), static_cast<std::uint32_t>(lcs::Result::kInhibited));
+  // A start that the driver would not have given.
+  EXPECT_EQ(rig.result_of(lcs::encode(rig.next_sequence(), lcs::StartCommand{}), kHeadStartUs + 4'000'000), lcs::Result::kInhibited);
+}
+
+TEST(MemoryHead, IsDarkFromItsBootUntilTheProcessorIsHeard) {
+  VERIFIES("LASSO-LCS-023~1");
+  HeadRig rig;
+  rig.driver.permit_laser(true);
+  MemoryHead anew(*rig.scene.caster, rig.scene.motion, noisy_head(), kHeadSeed, rig.camera);
+  anew.run(kHeadStartUs, rig.memory);
+  EXPECT_FALSE(rig.says_lit()) << "the word is of before";
+  anew.run(kHeadStartUs + 1, rig.memory);
+  EXPECT_FALSE(rig.says_lit());
+  rig.driver.permit_laser(true);
+  const AimedRays none;
+  ASSERT_EQ(rig.driver.start(odd_plan(1, none), kHeadStartUs), Status::kOk);
+  anew.run(kHeadStartUs + 2, rig.memory);
+  EXPECT_TRUE(rig.says_lit());
+}
+
+TEST(MemoryHead, IsDarkFromAnInhibitToTheNextStartWhateverTheWordSays) {
+  VERIFIES("LASSO-LCS-023~1");
+  HeadRig rig;
+  rig.driver.permit_laser(true);
+  EXPECT_EQ(rig.result_of(lcs::encode(rig.next_sequence(), lcs::StartCommand{})), lcs::Result::kDone);
+  EXPECT_TRUE(rig.says_lit());
+  EXPECT_EQ(rig.result_of(lcs::encode(rig.next_sequence(), lcs::LaserCommand::kFire)), lcs::Result::kUnknown);
+  EXPECT_TRUE(rig.says_lit());
+  EXPECT_EQ(rig.result_of(lcs::encode(rig.next_sequence(), lcs::LaserCommand::kInhibit)), lcs::Result::kDone);
+  EXPECT_EQ(rig.memory.laser.load(), lcs::kLaserMayShine);
+  EXPECT_FALSE(rig.says_lit());
+  EXPECT_EQ(rig.result_of(lcs::encode(rig.next_sequence(), lcs::Type::kAbort)), lcs::Result::kDone);
+  EXPECT_FALSE(rig.says_lit());
+  EXPECT_EQ(rig.result_of(lcs::encode(rig.next_sequence(), lcs::StartCommand{})), lcs::Result::kDone);
+  EXPECT_TRUE(rig.says_lit());
 }
 
 TEST(MemoryHead, RefusesWhatItCannotScan) {
   HeadRig rig;
   rig.driver.permit_laser(true);
-  const auto result_of = [&](const lcs::FrameBytes& command) {
-    std::copy_n(command.bytes, command.size, rig.memory.command);
-    rig.memory.commands.store(rig.memory.commands.load() + 1);
-    rig.head.run(kHeadStartUs, rig.memory);
-    return static_cast<lcs::Result>(rig.memory.result.load());
-  };
   lcs::StartCommand wide, crowded;
   wide.plan.half_x = 1;
   crowded.aimed = kMaxAimedRays + 1;
-  EXPECT_EQ(result_of(lcs::encode(0, wide)), lcs::Result::kBadPlan);
-  EXPECT_EQ(result_of(lcs::encode(0, crowded)), lcs::Result::kBadPlan);
-  EXPECT_EQ(result_of(lcs::encode(0, lcs::Type::kSelfTest)), lcs::Result::kUnknown);
-  EXPECT_EQ(result_of(lcs::encode(0, lcs::StartCommand{})), lcs::Result::kDone);
-  lcs::FrameBytes damaged = lcs::encode(0, lcs::StartCommand{});
+  EXPECT_EQ(rig.result_of(lcs::encode(rig.next_sequence(), wide)), lcs::Result::kBadPlan);
+  EXPECT_EQ(rig.result_of(lcs::encode(rig.next_sequence(), crowded)), lcs::Result::kBadPlan);
+  EXPECT_EQ(rig.result_of(lcs::encode(rig.next_sequence(), lcs::Type::kSelfTest)), lcs::Result::kUnknown);
+  EXPECT_EQ(rig.result_of(lcs::encode(rig.next_sequence(), lcs::StartCommand{})), lcs::Result::kDone);
+  EXPECT_EQ(rig.result_of(lcs::encode(static_cast<std::uint8_t>(rig.next_sequence() + 1), lcs::StartCommand{})), lcs::Result::kUnknown)
+      << "another command's";
+  lcs::FrameBytes damaged = lcs::encode(rig.next_sequence(), lcs::StartCommand{});
   damaged.bytes[9] ^= 1;
-  EXPECT_EQ(result_of(damaged), lcs::Result::kUnknown);
+  EXPECT_EQ(rig.result_of(damaged), lcs::Result::kUnknown);
 }
 
 TEST(MemoryHead, RefusesOpticsThatAreNotValid) {
