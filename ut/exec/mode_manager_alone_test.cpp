@@ -63,6 +63,7 @@ class ModeManagerAlone : public ::testing::Test {
     ASSERT_EQ(offer(InitialPoseSource::kUplink), StartRefusal::kNone);
     modes.apply_request();
     follow(E::kCheck, M::kVerifying);
+    modes.keep_mode();
     PoseTelemetry told;
     modes.report(told);
   }
@@ -125,6 +126,7 @@ TEST_F(ModeManagerAlone, ASearchBeginsAnewWhenTheClockJumps) {
     ASSERT_EQ(modes.command_mode(mode), ModeRefusal::kNone);
     modes.apply_request();
     ASSERT_EQ(modes.mode(), mode);
+    modes.keep_mode();
     const std::uint32_t searches = modes.track().searches;
     modes.follow_jump(60'000'000);
     EXPECT_EQ(modes.track().searches, mode == M::kSearching ? searches + 1 : searches);
@@ -139,6 +141,8 @@ TEST_F(ModeManagerAlone, ACheckedStartIsConfirmedAnewWhenTheClockJumps) {
   for (int jump = 0; jump < 2; ++jump) modes.follow_jump(60'000'000);
   EXPECT_EQ(modes.mode(), M::kStarting);
   EXPECT_EQ(changes(), kBack) << "once";
+  modes.check_mode();
+  EXPECT_EQ(modes.mode(), M::kStarting) << "the copies have followed";
   EXPECT_TRUE(refusals().empty()) << "the start goes on";
 }
 
