@@ -230,7 +230,7 @@ TEST_F(RegisterTest, ASearchesLooksGoOnWithinThePosesOwnUncertainty) {
 
 // A ray aimed at a contour may have met what a pose that is a little off has beside it.
 TEST_F(RegisterTest, AnAimedReturnThatMeetsNothingIsNotHeldAgainstThePose) {
-  VERIFIES("LASSO-REG-017~1");
+  VERIFIES("LASSO-REG-017~2");
   scan();
   for (std::size_t i = 0; i < workspace_->points.size(); i += 20) {
     for (N::Length& p : workspace_->points[i].p) p = N::to_length(0.8 * static_cast<double>(p));  // half a metre in front of the box
@@ -242,6 +242,21 @@ TEST_F(RegisterTest, AnAimedReturnThatMeetsNothingIsNotHeldAgainstThePose) {
   const HitSolution solution = register_from(0.005, 0.003);
   EXPECT_EQ(solution.inliers, doubted.inliers);
   EXPECT_EQ(explained_share(solution), 1);
+}
+
+TEST_F(RegisterTest, AnAimedReturnAFewSigmasOffASurfaceIsHeldAgainstThePose) {
+  VERIFIES("LASSO-REG-017~2");
+  scan();
+  MatchPoint<N>& wrong = workspace_->points[workspace_->points.size() / 3];
+  wrong.aimed = true;
+  for (int i = 0; i < 3; ++i) {  // by 5 assumed sigmas, of the 10 that its match reaches
+    const N::Length along = N::to_length(5e-3) * wrong.u[i];
+    wrong.p[i] += along;
+  }
+  const HitSolution solution = register_from(0.003, 0.002);
+  EXPECT_EQ(solution.usable, workspace_->points.size());
+  EXPECT_EQ(solution.inliers, workspace_->points.size() - 1);
+  EXPECT_LT(explained_share(solution), 1);
 }
 
 TEST_F(RegisterTest, TheSecondLookReachesFarther) {
