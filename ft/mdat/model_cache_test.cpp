@@ -1,5 +1,6 @@
 // Models that are compiled once, kept, and used again; and what is refused before anything is compiled.
 #include <gtest/gtest.h>
+#include <sched.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -63,6 +64,29 @@ TEST_F(Cached, ASecondCompilationGivesTheSameAndSaysWhereFrom) {
   EXPECT_EQ(compile("image.3dli").find(kFound), std::string::npos) << "half an entry is none";
   EXPECT_TRUE(work.read("image.3dli") == image);
   EXPECT_NE(compile("image.3dli").find(kFound), std::string::npos);
+}
+
+// The first processor on which this process may run, for taskset.
+std::string first_processor() {
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  sched_getaffinity(0, sizeof(allowed), &allowed);
+  std::size_t first = 0;
+  while (first < CPU_SETSIZE - 1 && !CPU_ISSET(first, &allowed)) ++first;
+  return std::to_string(first);
+}
+
+// Threads share the work of a compilation; the one on a single processor takes it in another order.
+TEST_F(Cached, TwoProcessesGiveTheSameImageOnHoweverManyProcessors) {
+  VERIFIES("LASSO-MDL-006~2");
+  const std::string compile_to = "mission compile missions/test.toml --no-cache -o ";
+  const Answer all = work.mdat(compile_to + "all.3dli");
+  ASSERT_EQ(all.exit_code, 0) << all.err;
+  const Answer one = work.mdat(compile_to + "one.3dli", "taskset -c " + first_processor());
+  ASSERT_EQ(one.exit_code, 0) << one.err;
+  EXPECT_TRUE(work.read("one.3dli") == work.read("all.3dli"));
+  EXPECT_GT(work.read("all.3dli").size(), 10000U);
+  EXPECT_TRUE(cache.entries().empty());
 }
 
 TEST_F(Cached, ARunIsThatOfACompilation) {

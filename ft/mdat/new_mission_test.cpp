@@ -295,7 +295,7 @@ TEST(NewMission, SaysTheSizeByItsScaleAndAsksAboutOneThatIsNoSpacecrafts) {
 
 // A box without two of its triangles, and the same box with two of them wound the other way.
 TEST(NewMission, TellsWhatIsOddAboutAMesh) {
-  VERIFIES("LASSO-GND-166~2");
+  VERIFIES("LASSO-GND-166~3");
   const WorkFolder work;
   const Triangles whole = satellite();
   work.write("hole.stl", stl_of(Triangles(whole.begin() + 2, whole.end())));
@@ -303,10 +303,11 @@ TEST(NewMission, TellsWhatIsOddAboutAMesh) {
   std::swap(turned_over[3][0], turned_over[3][1]);
   work.write("winding.stl", stl_of(turned_over));
   work.write("whole.stl", stl_of(whole));
-  const std::string told[][3] = {{"hole", "  open: 4 edges belong to one triangle, and ", "warning: "},
-                                 {"winding", "  winding: 3 pairs of neighbours are wound against each other", "note: "},
-                                 {"whole", "  size: 1.3 x 3.2 x 0.6 m, by --scale 1", ""}};
-  for (const auto& [name, line, kind] : told) {
+  const std::string told[][4] = {
+      {"hole", "  open: 4 edges belong to one triangle, and ", "warning: ", "does not fit: close the mesh"},
+      {"winding", "  winding: 3 pairs of neighbours are wound against each other", "note: ", "make the normals consistent"},
+      {"whole", "  size: 1.3 x 3.2 x 0.6 m, by --scale 1", "", ""}};
+  for (const auto& [name, line, kind, remedy] : told) {
     const Answer written = work.mdat("mission new --model " + name + ".stl -o " + name + ".toml");
     EXPECT_EQ(written.exit_code, 0) << written.err;
     EXPECT_NE(written.out.find(line), std::string::npos) << written.out;
@@ -314,6 +315,7 @@ TEST(NewMission, TellsWhatIsOddAboutAMesh) {
     EXPECT_EQ(checked.exit_code, 0) << checked.err;
     EXPECT_EQ(lines_of(checked.out).size(), kind.empty() ? 1U : 2U) << checked.out;
     EXPECT_EQ(checked.out.find(kind), 0U) << checked.out;
+    for (const std::string& out : {written.out, checked.out}) EXPECT_NE(out.find(remedy), std::string::npos) << out;
   }
 }
 

@@ -1,6 +1,8 @@
 // Pictures never cost a run: what is written where figures have no point, or gnuplot has settings, fails, or is not there.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "ft/mdat/command.hpp"
 #include "ut/support/verifies.hpp"
 
@@ -78,6 +80,40 @@ TEST(Report, NamesWhatWasFlownAndTheFramesWithoutAPose) {
   const std::vector<std::string> rows = lines_of(work.read("out/frames.csv"));
   ASSERT_EQ(rows.size(), 4U);
   EXPECT_EQ(rows[1].find(",noisy,1,0,"), 0U) << rows[1];
+}
+
+// Of both sensors, no inhibit among it, which is as where nothing is stated.
+TEST(Report, ShowsWhatIsStatedOfEachLaserOfWhichTheImageKnowsNothing) {
+  VERIFIES("LASSO-LCS-021~2");
+  const WorkFolder work;
+  const std::string further = "[further_sensor.far]\nrange_max_m = 15.0\n";
+  work.write_mission({{"\n[scan]\n", "\n" + further + "\n[scan]\n"}});
+  ASSERT_EQ(work.mdat("mission compile missions/test.toml --out silent.3dli").exit_code, 0);
+  const std::string of_first = "laser_class = \"3B\"\nlaser_hazard_distance_m = 42.5\nlaser_inhibits = 0\n";
+  const std::string of_further = "laser_class = \"1M\"\nlaser_hazard_distance_m = 0.5\nlaser_inhibits = 2\n";
+  work.write_mission({{"\n[scan]\n", of_first + "\n" + further + of_further + "\n[scan]\n"}});
+  ASSERT_EQ(work.mdat("mission compile missions/test.toml --out stated.3dli").exit_code, 0);
+  EXPECT_EQ(work.read("stated.3dli"), work.read("silent.3dli"));
+  const Answer answer = work.mdat(kReported);
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const std::string report = work.read("out/report.html");
+  const std::vector<std::string> info = lines_of(work.mdat("mission info missions/test.toml").out);
+  const std::pair<std::string, std::string> stated[] = {{"sensor.laser_class", "\"3B\""},
+                                                        {"sensor.laser_hazard_distance_m", "42.5"},
+                                                        {"sensor.laser_inhibits", "0"},
+                                                        {"further_sensor.far.laser_class", "\"1M\""},
+                                                        {"further_sensor.far.laser_hazard_distance_m", "0.5"},
+                                                        {"further_sensor.far.laser_inhibits", "2"}};
+  for (const auto& [key, value] : stated) {
+    const std::string cell = value[0] == '"' ? "&quot;" + value.substr(1, 2) + "&quot;" : value;
+    const std::size_t row = report.find("<td>" + key + "</td><td>" + cell + "</td>");
+    ASSERT_NE(row, std::string::npos) << key;
+    EXPECT_LT(report.find("<td>test.toml:", row), report.find("</tr>", row)) << key;
+    const auto line = std::find_if(info.begin(), info.end(), [&](const std::string& text) { return text.find(key + ' ') == 0; });
+    ASSERT_NE(line, info.end()) << key;
+    EXPECT_NE(line->find(' ' + value + ' '), std::string::npos) << *line;
+    EXPECT_NE(line->find("test.toml:"), std::string::npos) << *line;
+  }
 }
 
 TEST(Gallery, ShowsEveryRunBelowAFolder) {

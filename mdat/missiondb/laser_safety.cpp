@@ -1,5 +1,6 @@
 #include "mdat/missiondb/laser_safety.hpp"
 
+#include <algorithm>
 #include <iterator>
 
 namespace lasso::mdat {
@@ -46,6 +47,12 @@ const std::vector<ValueRow>& laser_safety_rows() {
     return result;
   }();
   return rows;
+}
+
+bool is_laser_safety(const std::string& key) {
+  const std::string name = key.substr(key.rfind('.') + 1);
+  const auto& rows = laser_safety_rows();
+  return std::any_of(rows.begin(), rows.end(), [&](const ValueRow& row) { return row.key.substr(kLaserPrefix) == name; });
 }
 
 LaserSafety read_laser_safety(const FoundValues& found, const std::string& found_prefix, SensorKind kind, const std::string& prefix,

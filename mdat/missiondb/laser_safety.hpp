@@ -14,6 +14,9 @@ namespace lasso::mdat {
 // Keys "sensor.laser_class", ...
 const std::vector<ValueRow>& laser_safety_rows();
 
+// Is it one of them, of any sensor ("further_sensor.NAME.laser_class")?
+bool is_laser_safety(const std::string& key);
+
 // Of the values that were found, under `found_prefix` without "sensor." behind it. What a sensor without a laser cannot have, and a
 // distance of no class, are problems, told with `prefix` before them.
 LaserSafety read_laser_safety(const FoundValues& found, const std::string& found_prefix, SensorKind kind, const std::string& prefix,

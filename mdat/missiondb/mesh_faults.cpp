@@ -43,6 +43,14 @@ std::vector<bool> sheets_of(const Surface& surface, const Components& components
   return sheets;
 }
 
+std::size_t hole_edges_of(const Surface& surface, const Components& components, const std::vector<bool>& sheets) {
+  std::size_t count = 0;
+  for_each_edge(edge_uses(surface), [&](const EdgeUse* first, const EdgeUse* last) {
+    count += last - first == 1 && !sheets[components.of_triangle[first->triangle]];
+  });
+  return count;
+}
+
 // What each triangle stands for: its area, or, of many, how many of kAsked equal shares of the area begin in it.
 std::vector<double> weights_of(const Surface& surface) {
   std::vector<double> weights;
@@ -63,6 +71,7 @@ void look_behind(Surface surface, MeshFaults& faults) {
   CompileReport ignored;
   const Components components = orient_consistently(surface, ignored);
   const std::vector<bool> sheets = sheets_of(surface, components);
+  faults.hole_edges = hole_edges_of(surface, components, sheets);
   const std::vector<double> weights = weights_of(surface);
   std::fill(surface.two_sided.begin(), surface.two_sided.end(), std::uint8_t{0});  // what is given twice is no hole
   turn_outward(surface, components, ignored, weights);
@@ -83,7 +92,7 @@ std::string percent(double share) { return std::to_string(std::lround(100 * shar
 
 std::string open_text(const MeshFaults& faults) {
   if (faults.seen_behind == 0) return "";
-  return "open: " + counted(faults.open_edges, "edge belongs", "edges belong") + " to one triangle, and " + percent(faults.seen_behind) +
+  return "open: " + counted(faults.hole_edges, "edge belongs", "edges belong") + " to one triangle, and " + percent(faults.seen_behind) +
          "is seen from behind: rays go in where it ends; a target that is closed there does not fit: close the mesh; a thin sheet, dish, "
          "tube or nozzle, which is open on the target, too, may stay as it is";
 }

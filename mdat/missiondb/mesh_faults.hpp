@@ -10,6 +10,7 @@ namespace lasso::mdat {
 
 struct MeshFaults {
   std::size_t open_edges = 0;  // of one triangle
+  std::size_t hole_edges = 0;  // of them, those of parts that enclose space
   // Shares of the surface whose back rays from outside reach, 0 below a hundredth: of open parts that enclose space, and of sheets and
   // dishes.
   double seen_behind = 0, sheets = 0;

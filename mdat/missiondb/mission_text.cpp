@@ -271,7 +271,7 @@ std::vector<Deviation> deviations(const MissionSource& source, const std::string
   for (const EffectiveValue& value : effective_values(source, scenario)) {
     const bool written = !value.key.empty() && value.place != "preset" && value.place.rfind("as ", 0) != 0;
     const std::string preset = written ? preset_text(source, value.key, scenario) : "";
-    if (written && value.value != preset) result.push_back({value, preset});
+    if (written && (value.value != preset || is_laser_safety(value.key))) result.push_back({value, preset});
   }
   return result;
 }

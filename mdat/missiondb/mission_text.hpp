@@ -23,7 +23,7 @@ std::vector<EffectiveValue> effective_values(const MissionSource& source, const 
 // The settings of the command line without which their value would be the same, as the mission says it or another setting does.
 std::vector<std::string> idle_settings(const MissionSource& source, const std::string& scenario);
 
-// The values that are not their presets, or have none.
+// The values that are not their presets, or have none; and all that is stated of lasers: no inhibit differs from nothing stated.
 struct Deviation {
   EffectiveValue value;
   std::string preset;  // empty: there is none

@@ -37,7 +37,8 @@ std::string deviations_table(const SimulationResult& result) {
   html.head = {"key", "value", "unit", "preset", "from"};
   for (const auto& [value, preset] : result.deviations)
     html.rows.push_back({escape(value.key), escape(value.value), value.unit, preset.empty() ? "–" : escape(preset), escape(value.place)});
-  return format("<details><summary>%zu values that are not presets</summary>", result.deviations.size()) + to_html(html) +
+  return format("<details><summary>%zu values that are not presets, or are stated of a laser</summary>", result.deviations.size()) +
+         to_html(html) +
          "<p class='note'>–: the key has no preset, or takes another one's value. A value that is not listed is its preset; "
          "<code>mdat mission info</code> prints all.</p></details>\n";
 }

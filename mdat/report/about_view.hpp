@@ -1,4 +1,4 @@
-// What was flown: mission, target, scenario, sensor, flight images, program, and the values that are not presets.
+// What was flown: mission, target, scenario, sensor, flight images, program, the values that are not presets, and what is stated of lasers.
 #pragma once
 
 #include <string>

@@ -72,7 +72,7 @@ struct SimulationResult {
   std::string commit;                       // of the program
   std::vector<std::string> settings;        // KEY=VALUE of the command line
   std::vector<EffectiveValue> values;       // that held
-  std::vector<Deviation> deviations;        // of them, those that are not presets
+  std::vector<Deviation> deviations;        // of them, those that are not presets, and what is stated of lasers
   std::vector<std::string> sensors, parts;  // names by their numbers; part 0 is the whole
   std::vector<TableResult> tables;
   std::vector<RelativeRun> relative;  // of a scene

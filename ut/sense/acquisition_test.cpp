@@ -5,82 +5,15 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <type_traits>
 #include <vector>
 
-#include "fsw/sense/pattern.hpp"
-#include "ut/support/verifies.hpp"
+#include "ut/sense/acquisition_fixture.hpp"
 
 namespace lasso {
 namespace {
 
-constexpr TimeUs kStart = 5'000'000'000;
-
-// Scans a wall at 3 m whose right half is missing. A test may damage the samples before they are handed over.
-class WallSensor final : public Sensor {
- public:
-  std::vector<RangeSample> samples;
-  std::size_t next = 0;
-  Status refuse = Status::kOk;
-  Status lose = Status::kOk;
-  std::size_t lost_at = 1u << 20;
-  bool overclaim = false, ignores_time = false;
-  int aborts = 0, polls = 0;
-
-  Status start(const ScanPlan& plan, TimeUs t_start_us) override {
-    if (refuse != Status::kOk) return refuse;
-    if (samples.empty()) make(plan, t_start_us);
-    next = 0;
-    return Status::kOk;
-  }
-
-  SensorPoll poll(TimeUs now_us, Span<RangeSample> out) override {
-    ++polls;
-    SensorPoll result;
-    if (overclaim) result.count = out.size() + 1;
-    if (next >= lost_at) result.status = lose;
-    if (overclaim || result.status != Status::kOk) return result;
-    while (next < samples.size() && (ignores_time || samples[next].t_us <= now_us) && result.count < out.size()) {
-      out[result.count++] = samples[next++];
-    }
-    result.complete = next == samples.size();
-    return result;
-  }
-
-  void abort() override { ++aborts; }
-  void permit_laser(bool) override {}
-
-  void make(const ScanPlan& plan, TimeUs t_start_us) {
-    for (std::uint16_t i = 0; i < plan.points; ++i) {
-      const Vec3 ray = pattern_direction(plan, i);
-      RangeSample sample;
-      for (int k = 0; k < 3; ++k) sample.direction[k] = static_cast<float>(ray[k]);
-      sample.state = ray.x() < 0 ? RayState::kHit : RayState::kMiss;
-      sample.range_m = ray.x() < 0 ? static_cast<float>(3 / ray.z()) : 0.0F;
-      sample.t_us = t_start_us + pattern_time_us(plan, i);
-      samples.push_back(sample);
-    }
-  }
-};
-
-class AcquisitionTest : public ::testing::Test {
- protected:
-  WallSensor sensor;
-  ScanPlan plan;
-  std::unique_ptr<RangeImage> image = std::make_unique<RangeImage>();
-  Acquisition acquisition;
-
-  void SetUp() override {
-    plan.scan_id = 42;
-    sensor.make(plan, kStart);
-  }
-  // All samples become available; as many steps as needed, at most `steps`.
-  ScanVerdict run(int steps = 100, TimeUs now = kStart + 200000) {
-    EXPECT_EQ(acquisition.start(sensor, plan, kStart, *image), Status::kOk);
-    for (int i = 0; i < steps && acquisition.under_way(); ++i) acquisition.step(sensor, now, *image);
-    return acquisition.finish(sensor, *image);
-  }
-};
+using test::AcquisitionTest;
+using test::kStart;
 
 TEST_F(AcquisitionTest, ASensorWithoutALaserScansWhateverIsPermitted) {
   VERIFIES("LASSO-SNS-020~1");
@@ -147,65 +80,6 @@ TEST_F(AcquisitionTest, TakesOnlyWhatHasBeenAcquiredByNow) {
   EXPECT_EQ(image->samples.size(), 0u);
   acquisition.step(sensor, kStart + 1000, *image);
   EXPECT_EQ(image->samples.size(), 6u);  // one sample each 175.95 us
-}
-
-TEST_F(AcquisitionTest, BadSamplesBecomeInvalidAndAreCountedByReason) {
-  VERIFIES("LASSO-SNS-022~2 LASSO-SYS-011~1");
-  std::vector<RangeSample>& s = sensor.samples;
-  for (const std::size_t i : {14u, 15u, 20u, 21u, 22u}) s[i].state = RayState::kHit;
-  s[10].direction[1] = std::numeric_limits<float>::quiet_NaN();
-  s[11].range_m = std::numeric_limits<float>::infinity();
-  s[12].direction[2] *= 1.003F;
-  s[13].direction[2] *= 0.997F;
-  s[14].range_m = -0.001F;
-  s[15].range_m = 1.01e5F;
-  s[16].t_us = s[15].t_us - 2000;
-  s[17].t_us = kStart + 200001;
-  s[18].state = static_cast<RayState>(4);
-  s[20].sigma_factor = 0.99F;
-  s[21].sigma_factor = std::numeric_limits<float>::quiet_NaN();
-  s[22].sigma_factor = 10.1F;
-  s[1023].t_us = kStart;
-  sensor.ignores_time = true;
-  const ScanVerdict verdict = run();
-  EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kNotFinite)], 3u);
-  EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kDirection)], 2u);
-  EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kRange)], 4u);
-  EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kTime)], 3u);
-  EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kState)], 1u);
-  EXPECT_EQ(verdict.invalid, 13);
-  EXPECT_EQ(verdict.count, 1024);
-  EXPECT_TRUE(verdict.usable);
-  for (const std::size_t i : {10u, 11u, 12u, 13u, 14u, 15u, 16u, 17u, 18u, 20u, 21u, 22u, 1023u}) {
-    EXPECT_EQ(image->samples[i].state, RayState::kInvalid) << i;
-    EXPECT_EQ(image->samples[i].range_m, 0) << i;
-    EXPECT_EQ(image->samples[i].direction[2], 1) << i;
-    EXPECT_EQ(image->samples[i].t_us, image->samples[i - 1].t_us) << i;
-  }
-  EXPECT_EQ(image->samples[19].t_us, s[19].t_us) << "a bad sample does not spoil the next one";
-  EXPECT_EQ(image->samples[19].state, s[19].state);
-}
-
-// Farther from the scan's middle than points can be moved to it: 100 s, or what the fixed-point type holds.
-TEST_F(AcquisitionTest, SamplesLaterThanTheLongestScanAreBad) {
-  VERIFIES("LASSO-SNS-022~2");
-  constexpr DurationUs kLongest_us = std::is_same_v<FlightNumber, FloatNumber> ? 100'000'000 : 3'800'000;
-  sensor.ignores_time = true;
-  sensor.samples[1022].t_us = kStart + kLongest_us;
-  sensor.samples[1023].t_us = kStart + kLongest_us + 1;
-  const ScanVerdict verdict = run(100, kStart + 2 * kLongest_us);
-  EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kTime)], 1U);
-  EXPECT_EQ(image->samples[1022].t_us, kStart + kLongest_us);
-  EXPECT_EQ(image->samples[1023].state, RayState::kInvalid);
-  EXPECT_EQ(image->samples[1023].t_us, image->samples[1022].t_us);
-}
-
-TEST_F(AcquisitionTest, SamplesBeforeTheStartAreBad) {
-  VERIFIES("LASSO-SNS-022~2");
-  sensor.samples[0].t_us = kStart - 1;
-  const ScanVerdict verdict = run();
-  EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kTime)], 1u);
-  EXPECT_EQ(image->samples[0].t_us, kStart);
 }
 
 TEST_F(AcquisitionTest, SlightlyWrongDirectionsAreBroughtToUnitLength) {

@@ -1,5 +1,7 @@
 #include "mdat/missiondb/laser_safety.hpp"
 
+#include <map>
+
 #include "mdat/missiondb/mission_text.hpp"
 #include "ut/mdat/missiondb/support.hpp"
 #include "ut/support/verifies.hpp"
@@ -25,7 +27,7 @@ class LaserSafetyTest : public ::testing::Test {
 const std::string kScenario = "[scenario.paper]\nranges_m = [4.0]\n";
 
 TEST_F(LaserSafetyTest, WhatIsStatedOfEachSensorIsShown) {
-  VERIFIES("LASSO-LCS-021~1");
+  VERIFIES("LASSO-LCS-021~2");
   const MissionSource source = load(
       "[sensor]\nlaser_class = '3B'\nlaser_hazard_distance_m = 42.5\nlaser_inhibits = 2\n[further_sensor.near]\nkind = "
       "'flash_lidar'\nlaser_class = '1M'\n" +
@@ -37,13 +39,29 @@ TEST_F(LaserSafetyTest, WhatIsStatedOfEachSensorIsShown) {
   EXPECT_EQ(value(source, "further_sensor.near.laser_inhibits"), "0 ");
 }
 
+// As 0 is what holds where nothing is stated, too.
+TEST_F(LaserSafetyTest, ThatThereIsNoInhibitIsListedAmongWhatIsNoPreset) {
+  VERIFIES("LASSO-LCS-021~2");
+  const MissionSource source =
+      load("[sensor]\nlaser_inhibits = 0\nlaser_class = 'not_stated'\n[further_sensor.near]\nkind = 'flash_lidar'\nlaser_inhibits = 0\n" +
+           kScenario);
+  std::map<std::string, std::string> listed;
+  for (const Deviation& deviation : deviations(source, "paper"))
+    listed[deviation.value.key] = deviation.value.value + ' ' + deviation.value.place;
+  EXPECT_EQ(listed["sensor.laser_inhibits"], "0 m.toml:8");
+  EXPECT_EQ(listed["sensor.laser_class"], "\"not_stated\" m.toml:9");
+  EXPECT_EQ(listed["further_sensor.near.laser_inhibits"], "0 m.toml:12");
+  EXPECT_EQ(listed.count("sensor.laser_hazard_distance_m"), 0U) << "of which nothing is stated";
+  EXPECT_EQ(listed.count("sensor.range_min_m"), 0U);
+}
+
 TEST_F(LaserSafetyTest, NothingIsShownWhereNothingIsStated) {
-  VERIFIES("LASSO-LCS-021~1");
+  VERIFIES("LASSO-LCS-021~2");
   EXPECT_EQ(value(load(kScenario), "sensor.laser_class"), "");
 }
 
 TEST_F(LaserSafetyTest, WrongValuesAreNamedWithTheirPlace) {
-  VERIFIES("LASSO-LCS-021~1");
+  VERIFIES("LASSO-LCS-021~2");
   const auto error = [&](const std::string& text) { return mission_error_of([&] { static_cast<void>(load(text)); }); };
   EXPECT_NE(error("[sensor]\nlaser_class = '3C'\n").find("m.toml:8:15: sensor.laser_class"), std::string::npos);
   EXPECT_NE(error("[sensor]\nlaser_class = '1'\nlaser_hazard_distance_m = -1\n").find("sensor.laser_hazard_distance_m"), std::string::npos);

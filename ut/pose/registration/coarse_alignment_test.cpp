@@ -79,7 +79,7 @@ TEST_F(AfarTest, IsNeededFromThere) {
 }
 
 TEST_F(AfarTest, TooFewPointsLeaveTheStart) {
-  VERIFIES("LASSO-REG-007~1");
+  VERIFIES("LASSO-REG-005~1");
   scan();
   for (const std::size_t count : {std::size_t{11}, std::size_t{0}}) {
     keep_first_points(count);
@@ -91,7 +91,7 @@ TEST_F(AfarTest, TooFewPointsLeaveTheStart) {
 }
 
 TEST_F(AfarTest, PointsBeyondTheFieldsReachAreLeftOut) {
-  VERIFIES("LASSO-REG-007~1");
+  VERIFIES("LASSO-REG-007~2");
   scan();
   for (std::size_t k = 0; k < workspace_->points.size() / 2; ++k) workspace_->points[k].p[2] = N::to_length(1e7);
   const Pose moved = align_coarsely(mission_, truth(), *workspace_);
@@ -100,7 +100,7 @@ TEST_F(AfarTest, PointsBeyondTheFieldsReachAreLeftOut) {
 }
 
 TEST_F(AfarTest, AScanOfSomethingElseStaysFinite) {
-  VERIFIES("LASSO-REG-007~1");
+  VERIFIES("LASSO-REG-012~1");
   scan();
   for (MatchPoint<N>& point : workspace_->points) {
     for (N::Length& p : point.p) p = N::to_length(random_.uniform(0.2, 300) * static_cast<double>(p));

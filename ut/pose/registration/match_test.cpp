@@ -17,10 +17,10 @@ using N = FlightNumber;
 
 class MatchTest : public test::PoseFixture {
  protected:
-  PassSums<N> match(const PassKind& kind) {
+  PassSums<N> match(const PassKind& kind, double gate_m = 0.02) {
     PassSums<N> sums(mission_.radius_m);
     MatchSettings<N> settings = make_settings(mission_.parameters, *workspace_);
-    set_gate(0.02, settings);
+    set_gate(gate_m, settings);
     match_points(mission_.field, to_path<N>(truth()), settings, {workspace_->points.begin(), workspace_->points.size()}, kind, sums);
     return sums;
   }
@@ -50,12 +50,34 @@ TEST_F(MatchTest, AStrideTakesEveryNthPoint) {
 }
 
 TEST_F(MatchTest, AnAimedPointBesideTheModelIsNotHeldAgainstThePose) {
-  VERIFIES("LASSO-REG-017~1");
+  VERIFIES("LASSO-REG-017~2");
   scan();
   for (MatchPoint<N>& point : workspace_->points) point.p[2] += N::to_length(5);
   EXPECT_EQ(match({}).usable, workspace_->points.size());
   for (MatchPoint<N>& point : workspace_->points) point.aimed = true;
   EXPECT_EQ(match({}).usable, 0U);
+}
+
+// Nearer to the sensor than the box by a little less, and a little more, than what the mission's noise and the gate let a match reach.
+TEST_F(MatchTest, AnAimedPointCountsAsAnyOtherWhereASurfaceIsWithinItsReach) {
+  VERIFIES("LASSO-REG-017~2");
+  parameters().sigma_k_per_m = 2e-4;
+  parameters().sigma_angle_rad = 3e-4;
+  parameters().surface_sigma_m = 5e-4;
+  const MissionParameters& p = parameters();
+  for (const double gate_m : {0.0, 0.02}) {
+    for (const double share : {0.98, 1.02}) {
+      scan();
+      for (MatchPoint<N>& point : workspace_->points) {
+        const double z = to_vec3(point.p).norm();
+        const double noise_m = p.sigma0_m + p.sigma_k_per_m * z * z + p.surface_sigma_m + 4 * p.sigma_angle_rad * z;
+        const double nearer_m = share * (p.kernel_width * noise_m + 3 * gate_m);
+        for (int k = 0; k < 3; ++k) point.p[k] += N::to_length(-nearer_m * N::to_double(point.u[k]));
+        point.aimed = true;
+      }
+      EXPECT_EQ(match({}, gate_m).usable, share < 1 ? workspace_->points.size() : 0U) << "gate " << gate_m << " m, share " << share;
+    }
+  }
 }
 
 // Where a curved surface's normal is longer than 1 no part of the ray's noise is across it, and none is less than none.

@@ -129,7 +129,7 @@ TEST_F(PrepareTest, ASampleOfLargerSigmaWeighsLess) {
 }
 
 TEST_F(PrepareTest, KeepsMissesAndLeavesInvalidSamplesOut) {
-  VERIFIES("LASSO-REG-006~1 LASSO-REG-009~1");
+  VERIFIES("LASSO-REG-006~1 LASSO-REG-009~1 LASSO-REG-017~2");
   const RayState states[] = {RayState::kMiss, RayState::kInvalid, RayState::kHit, RayState::kInvalid, RayState::kMiss, RayState::kHit};
   RangeImage image;
   for (const RayState state : states) {
@@ -160,6 +160,11 @@ TEST_F(PrepareTest, KeepsMissesAndLeavesInvalidSamplesOut) {
   EXPECT_TRUE(workspace_->points[1].aimed);
   EXPECT_EQ(workspace_->points[1].u[0], N::Unit{0.5});
   EXPECT_EQ(workspace_->points[1].p[2], N::Length{2});
+  StartPoint of_part;
+  of_part.partial = true;
+  prepare_rays(mission_, image, of_part, *workspace_);
+  EXPECT_TRUE(workspace_->points[0].aimed) << "returns of a part's scan count as aimed ones";
+  EXPECT_TRUE(workspace_->points[1].aimed);
 }
 
 TEST_F(PrepareTest, ReturnsFromWhereTheSensorDoesNotMeasureSayNothing) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <iterator>
 #include <string>
 
 #include "ut/support/verifies.hpp"
@@ -17,7 +18,7 @@ const char* const kPoseReasons[] = {"valid",          "no_scan",       "too_few_
 const char* const kStopReasons[] = {"converged", "iteration_limit", "too_few_points", "singular", "not_run"};
 
 TEST(Result, EveryPoseReasonHasItsName) {
-  VERIFIES("LASSO-REG-007~1");
+  VERIFIES("LASSO-REG-007~2");
   std::uint8_t code = 0;
   for (const char* name : kPoseReasons) EXPECT_EQ(std::string(to_string(static_cast<PoseReason>(code++))), name);
   EXPECT_EQ(static_cast<PoseReason>(code - 1), PoseReason::kContradicted);  // the last of them
@@ -25,7 +26,7 @@ TEST(Result, EveryPoseReasonHasItsName) {
 }
 
 TEST(Result, EveryStopReasonHasItsName) {
-  VERIFIES("LASSO-REG-007~1");
+  VERIFIES("LASSO-REG-007~2");
   std::uint8_t code = 0;
   for (const char* name : kStopReasons) EXPECT_EQ(std::string(to_string(static_cast<StopReason>(code++))), name);
   EXPECT_EQ(static_cast<StopReason>(code - 1), StopReason::kNotRun);
@@ -33,10 +34,10 @@ TEST(Result, EveryStopReasonHasItsName) {
 }
 
 TEST(Result, IsValidOnlyForTheReasonValid) {
-  VERIFIES("LASSO-REG-007~1");
+  VERIFIES("LASSO-REG-007~2");
   Registration result;
   EXPECT_FALSE(result.valid());  // nothing was estimated yet
-  for (std::uint8_t code = 0; code < 16; ++code) {
+  for (std::uint8_t code = 0; code < std::size(kPoseReasons); ++code) {
     result.reason = static_cast<PoseReason>(code);
     EXPECT_EQ(result.valid(), code == 0);
   }

@@ -299,7 +299,7 @@ class ClipTest : public test::PoseFixture {
 };
 
 TEST_F(ClipTest, ARayIsInsideTheGridExactlyWithinItsSpan) {
-  VERIFIES("LASSO-REG-007~1");
+  VERIFIES("LASSO-IMG-007~1");
   int met = 0;
   for (int i = 0; i < 100; ++i) {
     const FieldRay<N> ray = random_ray(i % 8);
@@ -319,7 +319,7 @@ TEST_F(ClipTest, ARayIsInsideTheGridExactlyWithinItsSpan) {
 }
 
 TEST_F(ClipTest, ARayWithoutDirectionIsNotBounded) {
-  VERIFIES("LASSO-REG-007~1");
+  VERIFIES("LASSO-IMG-007~1");
   FieldRay<N> ray{};
   set_cells(mission_.field, ray);
   const FieldSpan<N> span = clip_to_grid(mission_.field, ray);
