@@ -42,7 +42,7 @@ std::uint16_t number_before_first(const HeadMemory& head) {
 HeadDriver::HeadDriver(HeadMemory& head, const Optics& optics)
     : head_(head), made_(optics), optics_(optics), commands_(number_before_first(head)) {
   invariant(optics.validate() == Status::kOk, "lcs calibration");
-  show_laser();
+  write_permission();
   inhibit();  // whatever was before
 }
 
@@ -54,24 +54,33 @@ bool HeadDriver::laser_permitted() const {
   return laser_.get(permitted) && permitted != 0;
 }
 
-// With each call: a word that a disturbance has changed is right again, the head hears that somebody is there, and one that says that it is
-// lit though it may not be is told by a command, too.
-void HeadDriver::show_laser() {
-  const bool permitted = laser_permitted();
-  head_.laser.store(permitted ? kLaserMayShine : 0);
-  head_.beats.store(head_.beats.load() + 1);
+// Unless a whole status says that it is dark.
+bool HeadDriver::may_be_lit() const {
   CameraStatus status;
   std::uint8_t sequence = 0;
-  if (!permitted && read_status(head_, status, sequence) && status.laser_lit) inhibit();
+  return !read_status(head_, status, sequence) || status.laser_lit;
+}
+
+// A word that a disturbance has changed is right again, and the head hears that somebody is there.
+void HeadDriver::write_permission() {
+  head_.laser.store(laser_permitted() ? kLaserMayShine : 0);
+  head_.beats.store(head_.beats.load() + 1);
+}
+
+// With each call: a head that may be lit without permission is told by a command, too.
+void HeadDriver::show_laser() {
+  write_permission();
+  if (!laser_permitted() && may_be_lit()) inhibit();
 }
 
 void HeadDriver::inhibit() { give(encode(next_sequence(), LaserCommand::kInhibit)); }
 
-// A scan that was forbidden once is lost, whatever is permitted before the next poll.
+// A scan that was forbidden once is lost, whatever is permitted before the next poll. The head is told each time, whatever it says.
 void HeadDriver::permit_laser(bool permitted) {
   laser_.set(permitted ? 1 : 0);
   scan_.forbidden = scan_.forbidden || !permitted;
-  show_laser();
+  write_permission();
+  if (!permitted) inhibit();
 }
 
 // Each scan sets its temperature.

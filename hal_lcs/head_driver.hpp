@@ -45,6 +45,8 @@ class HeadDriver final : public Sensor {
   };
 
   bool laser_permitted() const;
+  bool may_be_lit() const;
+  void write_permission();
   void show_laser();
   void inhibit();
   std::uint8_t next_sequence() const { return sequence_of(static_cast<std::uint16_t>(commands_ + 1)); }

@@ -7,11 +7,13 @@
 // the count of `samples` that has it, and that count before a status that no longer says `scanning`.
 //
 // Nobody initialises it, and it outlives restarts of either end. A driver that starts writes dark, and gives an inhibit under a number
-// that neither the last command nor the last answer has. A head that starts is dark until `beats` have moved since; it leaves `answer` and
-// `samples` as they are, and carries out a command when its number is another than that of `answer`; a frame that is damaged, or has
-// another sequence, it refuses.
+// that neither the last command nor the last answer has. A head that starts is dark until `beats` have moved since, and until a start; it
+// leaves `answer` and `samples` as they are, and carries out a command when its number is another than that of `answer`; a frame that is
+// damaged, or has another sequence, it refuses. When it has read all of a start it looks at `commands` once more: where that has moved on,
+// first_us and aimed may be of the next start, and it refuses this one.
 //
-// What is no frame has no checksum: a bit that flips in first_us, aimed or records shows where a sample is against the plan or the pose.
+// What is no frame has no checksum. A bit that flips in first_us, aimed or records shows where a sample is against the plan or the pose;
+// one in commands or answer costs a scan, or has the last command carried out again; one in laser puts it out until the next call.
 #pragma once
 
 #include <atomic>

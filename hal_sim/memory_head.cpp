@@ -1,5 +1,6 @@
 #include "hal_sim/memory_head.hpp"
 
+#include <atomic>
 #include <utility>
 
 #include "fsw/sense/pattern.hpp"
@@ -67,6 +68,7 @@ lcs::Result MemoryHead::inhibit(const lcs::Frame& frame) {
   return lcs::Result::kDone;
 }
 
+// What is read is of this command only if no other was given meanwhile.
 lcs::Result MemoryHead::start(const lcs::StartCommand& command, const lcs::HeadMemory& memory) {
   inhibited_ = false;
   if (!lit()) return lcs::Result::kInhibited;
@@ -76,6 +78,8 @@ lcs::Result MemoryHead::start(const lcs::StartCommand& command, const lcs::HeadM
   plan_.aimed = Span<const AimedRay>(aimed_.data(), aimed_.size());
   if (validate(plan_) != Status::kOk || !within_mirrors(camera_, plan_)) return lcs::Result::kBadPlan;
   first_us_ = static_cast<TimeUs>(ByteReader{ConstBytes(memory.first_us)}.u64());
+  std::atomic_thread_fence(std::memory_order_acquire);
+  if (lcs::value_of(memory.commands.load()) != command_) return lcs::Result::kUnknown;
   next_ = 0;
   running_ = true;
   return lcs::Result::kDone;

@@ -42,7 +42,7 @@ class MemoryHead {
   std::uint16_t command_ = 0;  // number of the one that it has answered
   bool running_ = false;
   bool permitted_ = false;              // by the word, and the beats
-  bool inhibited_ = false;              // by a command, until the next start
+  bool inhibited_ = true;               // from its boot, and by a command, to the next start
   std::optional<std::uint32_t> beats_;  // as last seen
   std::optional<TimeUs> heard_us_;      // when they last moved; never since it was made, which is its boot
 };

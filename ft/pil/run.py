@@ -233,21 +233,26 @@ def fly_all(gate, flights, frames):
         return {number: job.result() for number, job in jobs.items()}
 
 
-def flights_of(gate, flight, host, board, fixed_host, fixed_board, cortexa9):
+def flights_of(flight, host, board, fixed_host, fixed_board, cortexa9):
     """Folders of host and board."""
     if flight == 'in_sensor':
         return {'in_sensor': (host, board)}
-    if flight:
-        gate.stop(f'FLIGHT={flight}: no such flight: in_sensor, or none')
     return dict(zip(FLIGHTS, ((host, board), (fixed_host, fixed_board), (host, cortexa9))))
 
 
+def usage(why):
+    print(f'pil: {why}', file=sys.stderr)
+    return 2
+
+
 def main(host, board, fixed_host, fixed_board, cortexa9, frames=str(WHOLE_FRAMES), flight=''):
+    if flight not in FOLDERS:
+        sys.exit(usage(f'FLIGHT={flight}: no such flight: in_sensor, or none'))
     emulator.end_with_children()
-    with gates.Gate(FOLDERS.get(flight, 'pil')) as gate:
+    with gates.Gate(FOLDERS[flight]) as gate:
         frames = gate.number('FRAMES', frames, MOST_FRAMES, WHOLE_FRAMES)
         try:
-            asked = flights_of(gate, flight, host, board, fixed_host, fixed_board, cortexa9)
+            asked = flights_of(flight, host, board, fixed_host, fixed_board, cortexa9)
             version = ' and '.join(dict.fromkeys(emulator.require(BOARDS[number]) for number in asked))
             flights = fly_all(gate, asked, frames)
         except emulator.Failure as failure:

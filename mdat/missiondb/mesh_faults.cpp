@@ -92,7 +92,9 @@ std::string percent(double share) { return std::to_string(std::lround(100 * shar
 
 std::string open_text(const MeshFaults& faults) {
   if (faults.seen_behind == 0) return "";
-  return "open: " + counted(faults.hole_edges, "edge belongs", "edges belong") + " to one triangle, and " + percent(faults.seen_behind) +
+  const bool parted = faults.hole_edges == 0;  // where more than two triangles meet, the piece ends without an edge of its own
+  const std::string where = parted ? "" : counted(faults.hole_edges, "edge belongs", "edges belong") + " to one triangle, and ";
+  return "open: " + where + percent(faults.seen_behind) +
          "is seen from behind: rays go in where it ends; a target that is closed there does not fit: close the mesh; a thin sheet, dish, "
          "tube or nozzle, which is open on the target, too, may stay as it is";
 }

@@ -93,10 +93,32 @@ TEST(MemoryHead, IsDarkFromItsBootUntilTheProcessorIsHeard) {
   anew.run(kHeadStartUs + 1, rig.memory);
   EXPECT_FALSE(rig.says_lit());
   rig.driver.permit_laser(true);
+  anew.run(kHeadStartUs + 2, rig.memory);
+  EXPECT_FALSE(rig.says_lit()) << "without a start since";
   const AimedRays none;
   ASSERT_EQ(rig.driver.start(odd_plan(1, none), kHeadStartUs), Status::kOk);
-  anew.run(kHeadStartUs + 2, rig.memory);
+  anew.run(kHeadStartUs + 3, rig.memory);
   EXPECT_TRUE(rig.says_lit());
+}
+
+TEST(MemoryHead, IsDarkWithAnyOtherWord) {
+  VERIFIES("LASSO-LCS-023~1");
+  constexpr std::uint32_t kMayShine = 0x5AA5C33C;
+  HeadRig rig;
+  rig.driver.permit_laser(true);
+  TimeUs now_us = kHeadStartUs;
+  const auto lit_with = [&](std::uint32_t word) {
+    rig.memory.laser.store(word);
+    rig.memory.beats.store(rig.memory.beats.load() + 1);
+    rig.head.run(++now_us, rig.memory);
+    return rig.says_lit();
+  };
+  EXPECT_EQ(rig.result_of(lcs::encode(rig.next_sequence(), lcs::StartCommand{}), now_us), lcs::Result::kDone);
+  for (int bit = 0; bit < 32; ++bit) {
+    EXPECT_TRUE(lit_with(kMayShine));
+    EXPECT_FALSE(lit_with(kMayShine ^ (std::uint32_t{1} << bit))) << bit;
+  }
+  for (const std::uint32_t word : {0xA5A5A5A5U, 0xFFFFFFFFU, 0x3CC3A55AU, 1U}) EXPECT_FALSE(lit_with(word)) << word;
 }
 
 TEST(MemoryHead, IsDarkFromAnInhibitToTheNextStartWhateverTheWordSays) {
