@@ -98,6 +98,28 @@ Mesh sheet() {
   return mesh;
 }
 
+// Where three triangles meet the surface is taken apart: the piece with the hole ends there without an edge of one triangle.
+TEST(MeshFaults, AHoleWhoseRimHasTwoFlangesIsToldWithoutACount) {
+  VERIFIES("LASSO-GND-166~3");
+  Mesh mesh = shapes::box({0, 0, 0}, {1, 0.8, 0.5});
+  const auto rim = mesh.triangles.front();
+  mesh.triangles.erase(mesh.triangles.begin());
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (const double side : {0.2, -0.2}) {
+      const std::uint32_t from = rim[i], to = rim[(i + 1) % 3];
+      const auto tip = static_cast<std::uint32_t>(mesh.vertices.size());
+      mesh.vertices.push_back(0.5 * (mesh.vertices[from] + mesh.vertices[to]) + side * shapes::Vec3d(0.3, 0.5, 0.8));
+      mesh.triangles.push_back({from, to, tip});
+    }
+  }
+  const MeshFaults faults = mesh_faults(mesh);
+  EXPECT_EQ(faults.hole_edges, 0U);
+  EXPECT_GT(faults.seen_behind, 0.1);
+  const MeshRemark open = mesh_remarks(faults)[0];
+  EXPECT_EQ(open.text.rfind("open: ", 0), 0U);
+  EXPECT_EQ(open.text.find("edges belong"), std::string::npos) << open.text;
+}
+
 TEST(MeshFaults, AFlatSheetIsNoHole) {
   VERIFIES("LASSO-GND-166~3");
   Mesh mesh = craft();
