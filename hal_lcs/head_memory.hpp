@@ -99,6 +99,7 @@ struct HeadMemory {
   std::uint8_t records[kMaxRays][kRecordBytes] = {};  // by ray: u32 low word of its time in us, then the sample of 0 us after it
 };
 
-static_assert(sizeof(HeadMemory) == 5 * 4 + 2 * kMaxFrame + 8 + 8 * kMaxAimedRays + kRecordBytes * kMaxRays, "nothing is between them");
+static_assert(sizeof(HeadMemory) == std::size_t{20} + 2 * kMaxFrame + 8 + std::size_t{8} * kMaxAimedRays + kRecordBytes * kMaxRays,
+              "nothing is between them");
 
 }  // namespace lasso::lcs

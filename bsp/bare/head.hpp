@@ -9,6 +9,9 @@
 
 namespace lasso::bare {
 
+// Of an image with its head beside it alone (own_head.cpp).
+extern lcs::HeadMemory head_memory;
+
 // Serial ports (board.hpp) of the camera's line, and of the one that has commands and telemetry.
 extern const std::uint32_t camera_port, ground_port;
 
