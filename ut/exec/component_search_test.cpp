@@ -111,15 +111,23 @@ TEST(ComponentSearch, AStartThatASearchOfItsScanContradictsIsNeverTracked) {
   for (const PoseTelemetry& t : story.reports) EXPECT_TRUE(t.valid == 0 || scene.error(t).norm() < 5e-2);
 }
 
-TEST(ComponentSearch, ARightStartIsToldAsUncheckedAndThenTracked) {
-  VERIFIES("LASSO-MOD-184~5 LASSO-MOD-188~1");
+// A start is searched for a better pose, in some frames.
+MissionParameters checked_parameters() {
   MissionParameters p = search_parameters();
   p.start_check = 1;
   p.search_slice = 200000;
-  ComponentScene scene(p, test::uneven_scene());
+  return p;
+}
+
+StartRefusal begin_with_right_start(ComponentScene& scene) {
   scene.begin();
-  ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kHandover, rough_offer(p, test::uneven_scene().at_zero, {}, 0)),
-            StartRefusal::kNone);
+  return scene.component->offer_start(InitialPoseSource::kHandover, rough_offer(checked_parameters(), test::uneven_scene().at_zero, {}, 0));
+}
+
+TEST(ComponentSearch, ARightStartIsToldAsUncheckedAndThenTracked) {
+  VERIFIES("LASSO-MOD-184~5 LASSO-MOD-188~1");
+  ComponentScene scene(checked_parameters(), test::uneven_scene());
+  ASSERT_EQ(begin_with_right_start(scene), StartRefusal::kNone);
   Story story;
   story.run(scene, 40);
   story.expect(
@@ -138,13 +146,8 @@ TEST(ComponentSearch, ARightStartIsToldAsUncheckedAndThenTracked) {
 TEST(ComponentSearch, AStartThatIsCheckedIsConfirmedAnewWhenTheClockJumps) {
   VERIFIES("LASSO-MOD-188~1 LASSO-HLT-006~1");
   constexpr DurationUs kJump_us = 60'000'000;
-  MissionParameters p = search_parameters();
-  p.start_check = 1;
-  p.search_slice = 200000;
-  ComponentScene scene(p, test::uneven_scene());
-  scene.begin();
-  ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kHandover, rough_offer(p, test::uneven_scene().at_zero, {}, 0)),
-            StartRefusal::kNone);
+  ComponentScene scene(checked_parameters(), test::uneven_scene());
+  ASSERT_EQ(begin_with_right_start(scene), StartRefusal::kNone);
   Story story;
   story.run(scene, 5);
   ASSERT_EQ(story.last().mode, code(M::kVerifying));
