@@ -20,7 +20,7 @@ class HeadDriver final : public Sensor {
   HeadDriver(HeadMemory& head, const Optics& optics);
 
   // As Driver's: none at first, in three voted copies that each start repairs. With each call without permission the laser's word is
-  // written dark, and a head whose status says that it is lit is given an inhibit.
+  // written dark, and the head is given an inhibit unless its status says that it is dark; when permission is taken, always.
   void permit_laser(bool permitted) override;
   void use_calibration(const TriangulationCalibration* calibration) override;
 
