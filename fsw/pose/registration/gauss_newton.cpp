@@ -94,9 +94,9 @@ double longest_step_m(const MissionParameters& p, const MatchSettings<N>& s) {
   return p.gate_first_m > sigma_m ? p.gate_first_m : sigma_m;
 }
 
-void take_held_pass(const Mission& mission, const Vec6& axis, Workspace& workspace, Pose& T_target_sensor) {
+void take_held_pass(const Mission& mission, const Vec6& axis, Lookup lookup, Workspace& workspace, Pose& T_target_sensor) {
   const MatchSettings<N> s = make_settings(mission.parameters, workspace);
-  Pass pass = match_pass(mission, s, {}, T_target_sensor, workspace);
+  Pass pass = match_pass(mission, s, {1, lookup}, T_target_sensor, workspace);
   Vec6 b;
   if (!set_up(mission, s, pass, b)) return;
   const Vec6 scale = radius_scale(mission.radius_m);

@@ -48,7 +48,8 @@ Pass take_pass(const Mission& mission, const MatchSettings<FlightNumber>& settin
 double longest_step_m(const MissionParameters& parameters, const MatchSettings<FlightNumber>& settings);
 
 // A whole pass over all points with one axis held: its step has no part along `axis`, but for a 1000th of what the hits would ask for.
-// `axis` is a unit vector over (rotation * radius, translation), target axes. Without enough points, or a solution, the pose stays.
-void take_held_pass(const Mission& mission, const Vec6& axis, Workspace& workspace, Pose& T_target_sensor);
+// `axis` is a unit vector over (rotation * radius, translation), target axes. Without enough points, or a solution, the pose stays. kLast
+// is for a pass right after one near by.
+void take_held_pass(const Mission& mission, const Vec6& axis, Lookup lookup, Workspace& workspace, Pose& T_target_sensor);
 
 }  // namespace lasso

@@ -19,11 +19,12 @@ void match_points(const Field<N>& field, const PathPose<N>& T_target_sensor, con
   sums.rows.flush();
 }
 
-CostSums<N> cost_points(const Field<N>& field, const PathPose<N>& T_target_sensor, const MatchSettings<N>& s, Span<MatchPoint<N>> points) {
+CostSums<N> cost_points(const Field<N>& field, const PathPose<N>& T_target_sensor, const MatchSettings<N>& s, Lookup lookup,
+                        Span<MatchPoint<N>> points) {
   CostSums<N> sums;
   for (MatchPoint<N>& point : points) {
     FieldRay<N> ray;  // NOLINT(cppcoreguidelines-pro-type-member-init): as above
-    const FieldHit<N> hit = meet_surface(field, T_target_sensor, s, Lookup::kWalk, point, ray);
+    const FieldHit<N> hit = meet_surface(field, T_target_sensor, s, lookup, point, ray);
     if (hit.found) {
       add_explained(fit_hit(field, s, point, ray, hit), sums);
     } else if (!point.aimed) {

@@ -150,7 +150,7 @@ inline void add_explained(const HitFit<N>& fit, CostSums<N>& sums) {
 
 // One pass over all points without rows. Bound: the points, each kMaxWalkSteps cells at most.
 CostSums<FlightNumber> cost_points(const Field<FlightNumber>& field, const PathPose<FlightNumber>& T_target_sensor,
-                                   const MatchSettings<FlightNumber>& settings, Span<MatchPoint<FlightNumber>> points);
+                                   const MatchSettings<FlightNumber>& settings, Lookup lookup, Span<MatchPoint<FlightNumber>> points);
 
 // One pass over the points of its kind. Bound: the points, each kMaxWalkSteps cells at most.
 void match_points(const Field<FlightNumber>& field, const PathPose<FlightNumber>& T_target_sensor,

@@ -15,8 +15,10 @@ constexpr double kSigmas = 5;          // nearer ones are within what the pose s
 
 // What a look at one side finds.
 struct Side {
-  CostedPose low;  // the lowest place that lies lower than its neighbours, of which the last one has one; kNone where there is none
+  CostedPose low;  // the lowest place that lies lower than both neighbours; kNone where there is none
   CostedPose last;
+  double beside = kNone;  // the cost of the first place
+  double fall = 0;        // by what the last place costs less than the one before it
 };
 
 void keep_lower(const CostedPose& place, Side& side) {
@@ -31,10 +33,11 @@ Side look(const CostedPose& from, double spacing_m, Profile& profile) {
   for (int i = 1; i <= kReach; ++i) {
     const CostedPose next = profile.draw_at(from.T_target_sensor, i * spacing_m, 1);
     if (falls && !(next.cost < side.last.cost)) keep_lower(side.last, side);
-    falls = next.cost < side.last.cost;
+    side.fall = side.last.cost - next.cost;
+    falls = side.fall > 0;
     side.last = next;
+    if (i == 1) side.beside = next.cost;
   }
-  if (falls) keep_lower(side.last, side);
   return side;
 }
 
@@ -45,10 +48,24 @@ struct Places {
   double limit = 0;  // what costs less explains the scan about as well as the lowest of the minima
 };
 
+// What a place costs at most that is the nearest to a minimum which explains the scan, if that is as sharp as the beginning: the first
+// places are twice as far from the beginning.
+double most_beside(const Side (&sides)[2]) { return (sides[0].beside > sides[1].beside ? sides[0].beside : sides[1].beside) + kRise; }
+
+// The lowest place of a side that may lie beside such a minimum, or beyond which there may be one: the last place, if it costs less than
+// the one before it by more than one return may cost. Its cost is kNone where there is none.
+CostedPose start_of_descent(const Side& side, double most) {
+  CostedPose start = side.low;
+  if (!(start.cost < most)) start.cost = kNone;
+  if (side.fall > kMostOfAReturn && side.last.cost < start.cost) start = side.last;
+  return start;
+}
+
 // Where the descent ends less than half of a place from the beginning, both are in the same minimum.
-void add_minimum(const Side& side, double spacing_m, Profile& profile, Places& places) {
-  if (!(side.low.cost < kNone)) return;
-  const CostedPose found = profile.descend(side.low, 0.5 * spacing_m);
+void add_minimum(const Side& side, double most, double spacing_m, Profile& profile, Places& places) {
+  const CostedPose start = start_of_descent(side, most);
+  if (!(start.cost < kNone)) return;
+  const CostedPose found = profile.descend(start, 0.5 * spacing_m);
   const double way_m = profile.along_m(way_between(places.all[0].T_target_sensor, found.T_target_sensor));
   if (way_m * way_m > 0.25 * spacing_m * spacing_m) (void)places.all.push_back(found);
 }
@@ -56,7 +73,7 @@ void add_minimum(const Side& side, double spacing_m, Profile& profile, Places& p
 [[gnu::noinline]] void find_places(const CostedPose& from, double spacing_m, Profile& profile, Places& places) {
   const Side sides[2] = {look(from, spacing_m, profile), look(from, -spacing_m, profile)};
   (void)places.all.push_back(from);
-  for (const Side& side : sides) add_minimum(side, spacing_m, profile, places);
+  for (const Side& side : sides) add_minimum(side, most_beside(sides), spacing_m, profile, places);
   places.minima = places.all.size();
   double lowest = from.cost;
   for (const CostedPose& place : places.all) lowest = place.cost < lowest ? place.cost : lowest;

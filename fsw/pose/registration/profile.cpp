@@ -22,13 +22,13 @@ Profile::Profile(const Mission& mission, const Vec6& axis, double usable, Worksp
 double Profile::along_m(const Vec6& step) const { return axis_.dot(radius_scale(mission_.radius_m).cwiseProduct(step)); }
 
 CostedPose Profile::cost_at(const Pose& T_target_sensor) {
-  return {T_target_sensor, bounded_cost(mission_, T_target_sensor, usable_, workspace_)};
+  return {T_target_sensor, bounded_cost(mission_, T_target_sensor, usable_, Lookup::kWalk, workspace_)};
 }
 
 CostedPose Profile::draw_at(const Pose& T_target_sensor, double step_m, int draws) {
   Pose drawn = step_pose(T_target_sensor, step_m * step_per_m_);
-  for (int i = 0; i < draws; ++i) take_held_pass(mission_, axis_, workspace_, drawn);
-  return cost_at(drawn);
+  for (int i = 0; i < draws; ++i) take_held_pass(mission_, axis_, i == 0 ? Lookup::kWalk : Lookup::kLast, workspace_, drawn);
+  return {drawn, bounded_cost(mission_, drawn, usable_, Lookup::kLast, workspace_)};
 }
 
 bool Profile::rises(const CostedPose& from, double way_m, double least) {
@@ -71,15 +71,15 @@ CostedPose Profile::descend(const CostedPose& from, double first_step_m) {
   return lowest;
 }
 
-bool minimise_along(const Mission& mission, const Vec6& axis, double first_step_m, const Pose& predicted, Workspace& workspace,
-                    HitSolution& hits) {
+Minimised minimise_along(const Mission& mission, const Vec6& axis, double first_step_m, const Pose& predicted, Workspace& workspace,
+                         HitSolution& hits) {
   Profile profile(mission, axis, hits.usable, workspace);
   const CostedPose registered = profile.cost_at(hits.T_target_sensor);
   const CostedPose other = profile.draw_at(predicted, 0, kPredictionDraws);
   CostedPose lowest = other.cost < registered.cost ? other : registered;
   if (!profile.rises(lowest, first_step_m, kRise)) lowest = profile.descend(lowest, first_step_m);
-  if (!(lowest.cost < registered.cost - kMostOfAReturn)) return false;
-  return move_hits(mission, lowest.T_target_sensor, workspace, hits);
+  if (!(lowest.cost < registered.cost - kMostOfAReturn)) return {registered.cost, false};
+  return {registered.cost, move_hits(mission, lowest.T_target_sensor, workspace, hits)};
 }
 
 }  // namespace lasso

@@ -27,7 +27,9 @@ class Profile {
   // One pass over all points, nothing solved.
   CostedPose cost_at(const Pose& T_target_sensor);
 
-  // The pose a step along the axis from here, fitted to the hits by `draws` passes with the axis held, and its cost: one pass more.
+  // The pose a step along the axis from here, fitted to the hits by `draws` passes with the axis held, and its cost: one pass more. The
+  // first pass looks for what each ray meets along its whole gate. The fit moves the pose by little: later ones ask the surface met last
+  // first.
   CostedPose draw_at(const Pose& T_target_sensor, double step_m, int draws);
 
   // Is the cost higher by `least`, so far off along the axis, either way? At most two passes.
@@ -48,12 +50,16 @@ class Profile {
   double usable_;
 };
 
-// Moves `hits` along the axis to where they cost least, if that is less by more than one return may cost; says whether it has. From the
+// Moves `hits` along the axis to where they cost least, if that is less by more than one return may cost. From the
 // registration or from the prediction fitted to the hits, whichever costs less: one of both often lies beside a minimum that the other is
 // in. Where the cost is higher by kRise, that of four returns, a step of `first_step_m` off, either way, it is taken for a minimum. The
 // pose stays where the hits have no solution at the other place. Why it stopped stays as it was. Bound: 27 passes over all points.
 constexpr double kRise = 4 * kMostOfAReturn;  // of a minimum's cost
-bool minimise_along(const Mission& mission, const Vec6& axis, double first_step_m, const Pose& predicted_T_target_sensor,
-                    Workspace& workspace, HitSolution& hits);
+struct Minimised {
+  double registered_cost = 0;  // where `hits` were
+  bool moved = false;
+};
+Minimised minimise_along(const Mission& mission, const Vec6& axis, double first_step_m, const Pose& predicted_T_target_sensor,
+                         Workspace& workspace, HitSolution& hits);
 
 }  // namespace lasso

@@ -209,12 +209,12 @@ double cost_of_hits(const Mission& mission, const Pose& T_target_sensor, Workspa
   return mean_cost(solution);
 }
 
-double bounded_cost(const Mission& mission, const Pose& T_target_sensor, double usable, Workspace& workspace) {
+double bounded_cost(const Mission& mission, const Pose& T_target_sensor, double usable, Lookup lookup, Workspace& workspace) {
   if (workspace.points.empty()) return kNoCost;
   MatchSettings<N> s = make_settings(mission.parameters, workspace);
   s.kernel_squared = N::to<N::Kernel>(3 * kMostOfAReturn);  // rho's bound is a third of it
   const Span<MatchPoint<N>> points(workspace.points.begin(), workspace.points.size());
-  const CostSums<N> sums = cost_points(mission.field, to_path<N>(T_target_sensor), s, points);
+  const CostSums<N> sums = cost_points(mission.field, to_path<N>(T_target_sensor), s, lookup, points);
   if (sums.usable == 0 || kLeastUsable * usable > sums.usable) return kNoCost;
   return kMostOfAReturn * (1 - N::to_double(sums.explained) / sums.usable) * usable;
 }

@@ -61,8 +61,8 @@ double cost_of_hits(const Mission& mission, const Pose& T_target_sensor, Workspa
 // What all returns cost at a pose, squared sigmas: of each Tukey's rho with a kernel of 3.5 sigmas, which is r^2 of a small residual and
 // kMostOfAReturn at most. A return that the pose leaves out costs that, too. So a return that passes an edge, or meets it with half of its
 // beam, decides nothing. Of `usable` returns, by the mean of those that the pose could explain: where more of them graze the surface, a
-// pose is not the better for it. 1e300 where these are fewer than half, or none. One pass, nothing solved.
-double bounded_cost(const Mission& mission, const Pose& T_target_sensor, double usable, Workspace& workspace);
+// pose is not the better for it. 1e300 where these are fewer than half, or none. One pass, nothing solved; kLast right after one near by.
+double bounded_cost(const Mission& mission, const Pose& T_target_sensor, double usable, Lookup lookup, Workspace& workspace);
 constexpr double kMostOfAReturn = 4;  // from a sweep of 2 to 16 (docs/experiments/2026-11-29-profile.md)
 
 // A rough start made good enough for register_first, on at most 96 of the points: their centroid, the far field, then slides along the

@@ -59,9 +59,11 @@ double rising_way_m(Profile& profile, const CostedPose& from, double radius_m, d
 }
 
 // The nearest to the prediction of the minima, and what is not known where there are several.
-void look_for_others(const Mission& mission, const WeakAxis& weak, const Pose& predicted, Workspace& workspace, HitSolution& hits) {
+void look_for_others(const Mission& mission, const WeakAxis& weak, const Minimised& along, const Pose& predicted, Workspace& workspace,
+                     HitSolution& hits) {
   Profile profile(mission, weak.axis, hits.usable, workspace);
-  const Minima minima = find_minima(mission, profile.cost_at(hits.T_target_sensor), weak.sigma_m, predicted, profile);
+  const CostedPose from = along.moved ? profile.cost_at(hits.T_target_sensor) : CostedPose{hits.T_target_sensor, along.registered_cost};
+  const Minima minima = find_minima(mission, from, weak.sigma_m, predicted, profile);
   if (minima.is_elsewhere) (void)move_hits(mission, minima.T_target_sensor, workspace, hits);
   hits.others_apart = minima.are_apart;
   hits.axis = weak.axis;
@@ -77,8 +79,8 @@ void minimise_weak_axis(const Mission& mission, const StartPoint& start, Workspa
   const Pose predicted = inverse(start.T_sensor_target);
   if (!is_looked_at(mission, start, predicted, hits.T_target_sensor, weak)) return;
   const double first_step_m = clamp(kSigmas * weak.sigma_m, kSigmas * kCertain * mission.radius_m, kLongestStep * mission.radius_m);
-  (void)minimise_along(mission, weak.axis, first_step_m, predicted, workspace, hits);
-  if (!is_certain(mission, weak)) look_for_others(mission, weak, predicted, workspace, hits);
+  const Minimised along = minimise_along(mission, weak.axis, first_step_m, predicted, workspace, hits);
+  if (!is_certain(mission, weak)) look_for_others(mission, weak, along, predicted, workspace, hits);
 }
 
 void widen_weak_axes(const Mission& mission, const HitSolution& hits, double scale, Workspace& workspace, Mat6& covariance,

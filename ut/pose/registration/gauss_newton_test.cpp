@@ -208,7 +208,7 @@ TEST_F(GaussNewtonTest, SaysWhenThereIsNoSolution) {
   EXPECT_EQ(far.status, Status::kSingular);
   EXPECT_EQ(pose.p, start.p);
   EXPECT_EQ(pose.q.coeffs(), start.q.coeffs());
-  take_held_pass(mission_, std::numeric_limits<double>::quiet_NaN() * Vec6::Unit(3), *workspace_, pose);
+  take_held_pass(mission_, std::numeric_limits<double>::quiet_NaN() * Vec6::Unit(3), Lookup::kWalk, *workspace_, pose);
   EXPECT_EQ(pose.p, start.p);
 }
 

@@ -23,7 +23,10 @@ TEST_F(HeldPassTest, TheBoundedCostIsThatOfABruteForcePass) {
     const double bounded = brute_bounded(pose);
     ASSERT_GT(bounded, 0);
     ASSERT_LT(bounded, kMostOfAReturn);
-    EXPECT_NEAR(bounded_cost(mission_, pose, 20, *workspace_), 20 * bounded, 0.01);
+    EXPECT_NEAR(bounded_cost(mission_, pose, 20, Lookup::kWalk, *workspace_), 20 * bounded, 0.01);
+    const Pose near = inverse(test::disturb(inverse(pose), 1e-5, 1e-5, random_));
+    const double asked_last = bounded_cost(mission_, near, 20, Lookup::kLast, *workspace_);
+    EXPECT_NEAR(asked_last, bounded_cost(mission_, near, 20, Lookup::kWalk, *workspace_), 1e-9) << "the surfaces met at the pose beside it";
   }
 }
 
@@ -32,14 +35,15 @@ TEST_F(HeldPassTest, WithoutAReturnTheBoundedCostIsMoreThanAny) {
   scan();
   Pose behind = truth();
   behind.p *= -20;
-  EXPECT_EQ(bounded_cost(mission_, behind, 7, *workspace_), 7 * kMostOfAReturn) << "all are left out";
+  EXPECT_EQ(bounded_cost(mission_, behind, 7, Lookup::kWalk, *workspace_), 7 * kMostOfAReturn) << "all are left out";
   const auto count = static_cast<double>(workspace_->points.size());
-  EXPECT_EQ(bounded_cost(mission_, behind, 2 * count, *workspace_), 2 * count * kMostOfAReturn);
-  EXPECT_GT(bounded_cost(mission_, behind, 2.01 * count, *workspace_), 1e200) << "fewer than half of those of the registration";
+  EXPECT_EQ(bounded_cost(mission_, behind, 2 * count, Lookup::kWalk, *workspace_), 2 * count * kMostOfAReturn);
+  EXPECT_GT(bounded_cost(mission_, behind, 2.01 * count, Lookup::kWalk, *workspace_), 1e200)
+      << "fewer than half of those of the registration";
   for (auto& point : workspace_->points) point.aimed = true;
-  EXPECT_GT(bounded_cost(mission_, behind, 7, *workspace_), 1e200) << "those at a contour may well be";
+  EXPECT_GT(bounded_cost(mission_, behind, 7, Lookup::kWalk, *workspace_), 1e200) << "those at a contour may well be";
   workspace_->points.clear();
-  EXPECT_GT(bounded_cost(mission_, truth(), 7, *workspace_), 1e200);
+  EXPECT_GT(bounded_cost(mission_, truth(), 7, Lookup::kWalk, *workspace_), 1e200);
 }
 
 // Against the least squares over the five directions that are left, in double, of brute-force sums.
@@ -57,17 +61,17 @@ TEST_F(HeldPassTest, AHeldAxisStaysAndTheOthersAreSolved) {
     const Eigen::Matrix<double, 6, 5> free = Eigen::FullPivLU<Eigen::Matrix<double, 1, 6>>(row.transpose()).kernel();
     const Vec6 x = free * (free.transpose() * sums.H * free).ldlt().solve(free.transpose() * sums.b);
     Pose pose = start;
-    take_held_pass(mission_, axis, *workspace_, pose);
+    take_held_pass(mission_, axis, Lookup::kWalk, *workspace_, pose);
     const Pose expected = step_pose(start, x);
     EXPECT_LT(pose_difference(pose, expected).norm(), 5e-3 * x.norm()) << radius_m;
   }
   parameters().gate_first_m = 1e-3;
   Pose cut = start;
-  take_held_pass(mission_, Vec6::Unit(0), *workspace_, cut);
+  take_held_pass(mission_, Vec6::Unit(0), Lookup::kWalk, *workspace_, cut);
   EXPECT_NEAR(length_of(pose_difference(cut, start), mission_.radius_m), longest_step_m(parameters(), settings()), 1e-4);
   keep_first_points(kMinimumPoints - 1);
   Pose pose = start;
-  take_held_pass(mission_, Vec6::Unit(0), *workspace_, pose);
+  take_held_pass(mission_, Vec6::Unit(0), Lookup::kWalk, *workspace_, pose);
   EXPECT_EQ(pose.p, start.p);
 }
 

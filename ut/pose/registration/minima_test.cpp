@@ -66,7 +66,7 @@ class MinimaTest : public test::PoseFixture {
 };
 
 TEST_F(MinimaTest, SlatsLookTheSameAfterEachOfThem) {
-  VERIFIES("LASSO-REG-032~2");
+  VERIFIES("LASSO-REG-032~3");
   ASSERT_LT(kPeriod_m, 6 * kSpacing * radius_m()) << "within reach";
   keep_middle(0.12);
   const Minima found = minima(1e-3, truth());
@@ -90,7 +90,7 @@ class WideMinimaTest : public MinimaTest {
 };
 
 TEST_F(WideMinimaTest, FromALastPlaceThatFallsTheMinimumBeyondIsReached) {
-  VERIFIES("LASSO-REG-032~2");
+  VERIFIES("LASSO-REG-032~3");
   ASSERT_GT(kWidePeriod_m, 6 * kSpacing * radius_m());
   parameters().sigma0_m = scan_.sigma_m = 8e-3;
   scan();
@@ -113,7 +113,7 @@ class OneSlatTest : public MinimaTest {
 
 // Where the look begins all else is not yet as the hits have it: the places beside it cost less, and lead back.
 TEST_F(OneSlatTest, ADescentThatEndsWhereItBeganIsNoOtherMinimum) {
-  VERIFIES("LASSO-REG-032~2");
+  VERIFIES("LASSO-REG-032~3");
   const HitSolution hits = register_first(mission_, truth(), *workspace_);
   Profile profile(mission_, Vec6::Unit(3), hits.usable, *workspace_);
   Pose off = hits.T_target_sensor;
@@ -133,7 +133,7 @@ class CloseMinimaTest : public MinimaTest {
 };
 
 TEST_F(CloseMinimaTest, OfSeveralOnASideTheLowestIsLookedAt) {
-  VERIFIES("LASSO-REG-032~2");
+  VERIFIES("LASSO-REG-032~3");
   for (int i = 0; i < 4; ++i) {
     scan();
     keep_middle(0.12);
@@ -145,7 +145,7 @@ TEST_F(CloseMinimaTest, OfSeveralOnASideTheLowestIsLookedAt) {
 }
 
 TEST_F(MinimaTest, OfPlacesThatLookTheSameThePredictionTells) {
-  VERIFIES("LASSO-REG-032~2 LASSO-REG-033~1");
+  VERIFIES("LASSO-REG-032~3 LASSO-REG-033~1");
   keep_middle(0.12);
   for (const double slats : {-1.0, 1.0}) {
     const Minima found = minima(1e-3, shifted(0.8 * slats * kPeriod_m));
@@ -158,7 +158,7 @@ TEST_F(MinimaTest, OfPlacesThatLookTheSameThePredictionTells) {
 }
 
 TEST_F(MinimaTest, ARowWhoseEndsAreSeenHasOnePlace) {
-  VERIFIES("LASSO-REG-032~2 LASSO-REG-033~1");
+  VERIFIES("LASSO-REG-032~3 LASSO-REG-033~1");
   const Minima found = minima(1e-3, shifted(kPeriod_m));
   EXPECT_FALSE(found.is_elsewhere) << "the prediction does not matter where the scan tells";
   EXPECT_FALSE(found.are_apart);
@@ -167,7 +167,7 @@ TEST_F(MinimaTest, ARowWhoseEndsAreSeenHasOnePlace) {
 
 // Both neighbours are within five sigmas: their ways join the covariance as they are.
 TEST_F(MinimaTest, MinimaThatTheSigmaCoversAddTheirWays) {
-  VERIFIES("LASSO-REG-032~2");
+  VERIFIES("LASSO-REG-032~3");
   keep_middle(0.12);
   const Minima found = minima(0.011, truth());
   EXPECT_FALSE(found.are_apart);
@@ -176,7 +176,7 @@ TEST_F(MinimaTest, MinimaThatTheSigmaCoversAddTheirWays) {
 
 // One slat's middle tells nothing of where along itself it is: no minimum, and no end of it.
 TEST_F(MinimaTest, ThatNothingEndsWithinReachIsSeen) {
-  VERIFIES("LASSO-REG-032~2");
+  VERIFIES("LASSO-REG-032~3");
   keep_points([&](std::size_t, const MatchPoint<FlightNumber>& point) {
     const Vec3 p(FlightNumber::to_double(point.p[0]), FlightNumber::to_double(point.p[1]), FlightNumber::to_double(point.p[2]));
     return std::abs((truth() * p).y()) < 0.03;
@@ -190,7 +190,7 @@ TEST_F(MinimaTest, ThatNothingEndsWithinReachIsSeen) {
 
 // A pose that is sure of its place may be far from its prediction, as at a start: it is moved at most.
 TEST_F(MinimaTest, WhereTheAxisIsCertainNoOthersAreLookedFor) {
-  VERIFIES("LASSO-REG-032~2");
+  VERIFIES("LASSO-REG-032~3");
   keep_middle(0.12);
   HitSolution hits = register_first(mission_, truth(), *workspace_);
   const Vec6 row = hits.H.col(3) / std::sqrt(hits.H(3, 3));
@@ -206,7 +206,7 @@ TEST_F(MinimaTest, WhereTheAxisIsCertainNoOthersAreLookedFor) {
 
 // What a registration does with it: the axis is none that the hits show, and its sigma says so.
 TEST_F(MinimaTest, TheCovarianceKnowsOfTheOthers) {
-  VERIFIES("LASSO-REG-032~2");
+  VERIFIES("LASSO-REG-032~3");
   keep_middle(0.12);
   HitSolution hits = register_first(mission_, truth(), *workspace_);
   const Vec6 row = hits.H.col(3) / std::sqrt(hits.H(3, 3));

@@ -88,7 +88,7 @@ TEST_F(ProfileTest, AMinimumStays) {
     scan();
     HitSolution hits = registered(truth());
     const HitSolution before = hits;
-    EXPECT_FALSE(minimise_along(mission_, kTurn, 0.02 * radius_m(), truth(), *workspace_, hits));
+    EXPECT_FALSE(minimise_along(mission_, kTurn, 0.02 * radius_m(), truth(), *workspace_, hits).moved);
     EXPECT_EQ(hits.T_target_sensor.p, before.T_target_sensor.p);
     EXPECT_EQ(hits.H, before.H);
   }
@@ -101,7 +101,7 @@ TEST_F(ProfileTest, APoseBesideAMinimumIsMovedIntoIt) {
   HitSolution hits = weigh_hits(mission_, turned(0.1), *workspace_);
   hits.iterations = 7;
   hits.stop = StopReason::kIterationLimit;
-  ASSERT_TRUE(minimise_along(mission_, kTurn, 0.02 * radius_m(), turned(0.13), *workspace_, hits));
+  ASSERT_TRUE(minimise_along(mission_, kTurn, 0.02 * radius_m(), turned(0.13), *workspace_, hits).moved);
   EXPECT_NEAR(turn_of(hits.T_target_sensor), turn_of(best.T_target_sensor), 0.02);
   EXPECT_EQ(hits.stop, StopReason::kIterationLimit) << "the registration did not end";
   EXPECT_EQ(hits.iterations, 7);
@@ -129,7 +129,7 @@ TEST_F(ProfileTest, APlaceWithoutASolutionIsNotMovedTo) {
   ASSERT_EQ(hits.inliers, 13u);
   ASSERT_EQ(weigh_hits(mission_, truth(), *workspace_).stop, StopReason::kTooFewPoints);
   ASSERT_LT(profile().cost_at(truth()).cost, profile().cost_at(inverse(nearer)).cost - kMostOfAReturn);
-  EXPECT_FALSE(minimise_along(mission_, kTurn, 0.02 * radius_m(), truth(), *workspace_, hits));
+  EXPECT_FALSE(minimise_along(mission_, kTurn, 0.02 * radius_m(), truth(), *workspace_, hits).moved);
   EXPECT_EQ(hits.inliers, 13u);
 }
 
@@ -140,10 +140,10 @@ TEST_F(ProfileTest, APredictionThatCostsLessTakesThePlaceOfTheRegistration) {
   const HitSolution wrong = registered(turned(test::kQuarterTurn_rad));
   ASSERT_GT(std::abs(turn_of(wrong.T_target_sensor)), 1) << "a minimum of its own";
   HitSolution hits = wrong;
-  EXPECT_FALSE(minimise_along(mission_, kTurn, 0.02 * radius_m(), wrong.T_target_sensor, *workspace_, hits));
-  ASSERT_TRUE(minimise_along(mission_, kTurn, 0.02 * radius_m(), turned(0.002), *workspace_, hits));
+  EXPECT_FALSE(minimise_along(mission_, kTurn, 0.02 * radius_m(), wrong.T_target_sensor, *workspace_, hits).moved);
+  ASSERT_TRUE(minimise_along(mission_, kTurn, 0.02 * radius_m(), turned(0.002), *workspace_, hits).moved);
   EXPECT_LT(std::abs(turn_of(hits.T_target_sensor)), 0.02);
-  EXPECT_FALSE(minimise_along(mission_, kTurn, 0.02 * radius_m(), wrong.T_target_sensor, *workspace_, hits)) << "but not otherwise";
+  EXPECT_FALSE(minimise_along(mission_, kTurn, 0.02 * radius_m(), wrong.T_target_sensor, *workspace_, hits).moved) << "but not otherwise";
 }
 
 }  // namespace
