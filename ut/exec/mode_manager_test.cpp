@@ -37,7 +37,7 @@ StartOffer wrong_offer(const ComponentScene& scene, TimeUs t_us) {
 }
 
 TEST(ModeManager, ABearingIsSoughtOverTheWholeField) {
-  VERIFIES("LASSO-MOD-101~2 LASSO-MOD-136~3 LASSO-MOD-137~1");
+  VERIFIES("LASSO-MOD-101~3 LASSO-MOD-136~3 LASSO-MOD-137~1");
   ComponentScene scene(story_parameters());
   scene.begin();
   ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);

@@ -169,7 +169,7 @@ TEST(Report, CarriesTheParts) {
 }
 
 TEST(Report, CarriesTheBearingAndTheTracksStart) {
-  VERIFIES("LASSO-EXE-006~1 LASSO-MOD-101~2");
+  VERIFIES("LASSO-EXE-006~1 LASSO-MOD-101~3");
   TrackStep step = numbered_step();
   step.after.held = true;
   step.after.source = InitialPoseSource::kNavigation;

@@ -233,7 +233,7 @@ TEST_F(TrackerTest, AHeldModeDoesNotEndByItself) {
 }
 
 TEST_F(TrackerTest, ABearingScanSaysWhereAndNoPose) {
-  VERIFIES("LASSO-MOD-101~2 LASSO-MOD-104~1");
+  VERIFIES("LASSO-MOD-101~3 LASSO-MOD-104~1");
   auto finder = std::make_unique<BearingFinder>();
   change_mode(ModeEvent::kSeek, state_);
   const TrackStep step = bearing_scan(mission_, *finder, scan(0), state_);

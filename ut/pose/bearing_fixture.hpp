@@ -90,6 +90,15 @@ class BearingTest : public ::testing::Test {
       return Vec3(static_cast<double>(sample.range_m) * Eigen::Map<const Eigen::Vector3f>(sample.direction).cast<double>());
     });
   }
+  // Of a return's depth, by the spread of the returns along the line of sight and the noise of each.
+  double variance_of_depth(const RangeImage& image, const Vec3& mean) const {
+    const Vec3 squares = mean_of(image, [&](const RangeSample& sample) {
+      const Vec3 p = static_cast<double>(sample.range_m) * Eigen::Map<const Eigen::Vector3f>(sample.direction).cast<double>();
+      const double off_m = (p - mean).dot(mean) / mean.norm();
+      return Vec3(off_m * off_m, 0, 0);
+    });
+    return squares.x() + scene_.sigma_m * scene_.sigma_m;
+  }
   static double mean_time_of(const RangeImage& image) {
     return mean_of(image, [](const RangeSample& sample) { return Vec3(static_cast<double>(sample.t_us), 0, 0); }).x();
   }

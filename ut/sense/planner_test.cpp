@@ -257,7 +257,7 @@ TEST(Planner, RefusesAMissionWhoseCurveDoesNotClose) {
 }
 
 TEST(Planner, AFullFieldScanFillsTheFieldOfView) {
-  VERIFIES("LASSO-MOD-101~2");
+  VERIFIES("LASSO-MOD-101~3");
   MissionParameters p = preset_parameters();
   p.fov_half_x_rad = 0.3;
   p.fov_half_y_rad = 0.2;

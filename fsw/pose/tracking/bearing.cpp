@@ -175,12 +175,14 @@ BearingReason follow(const MissionParameters& parameters, const Centroid& centro
   return BearingReason::kValid;
 }
 
-void describe(const BearingState& state, Bearing& bearing) {
+void describe(double left_out_m, const BearingState& state, Bearing& bearing) {
   bearing.t_us = state.t_us;
   bearing.scans = state.scans;
   bearing.value = detail::bearing_of(state.p_m, state.v_mps);
   const Mat6 J = detail::bearing_jacobian(state.p_m, state.v_mps);
-  const Mat6 rows = J * state.covariance;
+  Mat6 covariance = state.covariance;
+  covariance.diagonal().head<3>().array() += left_out_m * left_out_m;
+  const Mat6 rows = J * covariance;
   bearing.covariance = rows * J.transpose();
 }
 
@@ -246,7 +248,7 @@ Bearing BearingFinder::find(const Mission& mission, const RangeImage& scan, Bear
   if (bearing.valid()) bearing.reason = choose(mission, returns_, bearing);
   if (!bearing.valid()) return bearing;
   bearing.reason = follow(mission.parameters, centroid_of(mission.parameters, scan.reference_time_us(), returns_), state);
-  if (bearing.valid()) describe(state, bearing);
+  if (bearing.valid()) describe(mission.radius_m / kStrayShare, state, bearing);
   return bearing;
 }
 

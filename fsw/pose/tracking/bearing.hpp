@@ -6,6 +6,10 @@
 // mean of the returns' own times, with the covariance of a mean of so many points of that spread. Several scans: a Kalman filter of the
 // centroid's place and velocity in sensor axes, constant velocity disturbed by white accelerations of filter.acceleration_mps2 (Bar-Shalom,
 // Li & Kirubarajan 2001, 6.3.2). The state is the explicit struct BearingState.
+//
+// Returns that are left out as strays may be the target's: those of a mast, or of a face seen at a grazing angle. They are fewer than one
+// of kStrayShare around each place, and two radii away at most: a group of these would move the centroid by 2 * radius / kStrayShare. Half
+// of that is a sigma of the place in each direction. It is the same in all scans, so that it is no part of the filter's state.
 #pragma once
 
 #include <cstdint>
