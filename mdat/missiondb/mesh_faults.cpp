@@ -7,6 +7,7 @@
 #include "mdat/modelc/outward.hpp"
 #include "mdat/modelc/repair.hpp"
 #include "mdat/modelc/topology.hpp"
+#include "mdat/source/mission_error.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -149,13 +150,13 @@ std::vector<MeshRemark> mesh_remarks(const MeshFaults& faults) {
   return remarks;
 }
 
-std::vector<MeshRemark> mesh_remarks(const Mesh& mesh, bool parametric) {
+std::vector<MeshRemark> mesh_remarks(const std::filesystem::path& file, const Mesh& mesh, bool parametric) {
   try {
     std::vector<MeshRemark> remarks = mesh_remarks(mesh_faults(mesh));
     if (parametric) std::erase_if(remarks, [](const MeshRemark& remark) { return !remark.follows; });
     return remarks;
   } catch (const CompileError& error) {
-    return {{true, std::string("mesh: it cannot be compiled: ") + error.what()}};
+    throw MissionError({file.string(), 0, 0, "", "", std::string("the mesh cannot be compiled: ") + error.what()});
   }
 }
 

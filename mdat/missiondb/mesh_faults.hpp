@@ -1,6 +1,7 @@
 // What is odd about a mesh as a closed surface: counted after equal vertices are joined, as the model compiler does, and said in words.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,8 @@ struct MeshRemark {
 };
 std::vector<MeshRemark> mesh_remarks(const MeshFaults& faults);
 
-// The same of a mesh; of one that cannot be compiled that and why. Solids of a parametric model share faces by design: of them what follows
-// alone.
-std::vector<MeshRemark> mesh_remarks(const Mesh& mesh, bool parametric);
+// The same of a mesh. Throws MissionError, which names the file and why, of one that cannot be compiled. Solids of a parametric model share
+// faces by design: of them what follows alone.
+std::vector<MeshRemark> mesh_remarks(const std::filesystem::path& file, const Mesh& mesh, bool parametric);
 
 }  // namespace lasso::mdat

@@ -212,7 +212,7 @@ std::optional<std::string> value_without(const std::filesystem::path& file, cons
 // What is odd about a surface, a line each.
 std::string surface_text(const std::filesystem::path& file, const Mesh& mesh, bool parametric) {
   std::string text;
-  for (const MeshRemark& remark : mesh_remarks(mesh, parametric))
+  for (const MeshRemark& remark : mesh_remarks(file, mesh, parametric))
     text += (remark.follows ? "warning: " : "note: ") + file.string() + ": " + remark.text + '\n';
   return text;
 }

@@ -174,7 +174,7 @@ std::vector<std::string> write_new_mission(const NewMissionRequest& request) {
   mission.scale = request.scale;  // of the file that was given, in what is said
   place(mission, mesh);
   const SurfaceFacts surface = surface_facts(mesh);
-  const std::vector<MeshRemark> faults = mesh_remarks(mesh, request.model.extension() == ".toml");
+  const std::vector<MeshRemark> faults = mesh_remarks(request.model, mesh, request.model.extension() == ".toml");
   std::optional<Simplified> coarser;
   if (request.simplify > 0) coarser = simplified(request, mesh);
   if (coarser) mesh = coarser->mesh;

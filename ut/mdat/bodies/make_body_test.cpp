@@ -100,7 +100,7 @@ TEST(MakeBody, SameSeedGivesTheSameBytesAndAnotherOneOthers) {
 TEST(MakeBody, NothingIsOddAboutItsSurface) {
   VERIFIES("LASSO-GND-166~3");
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    for (const MeshRemark& remark : mesh_remarks(mesh_of(make_body(seed)), true)) ADD_FAILURE() << seed << ": " << remark.text;
+    for (const MeshRemark& remark : mesh_remarks("body", mesh_of(make_body(seed)), true)) ADD_FAILURE() << seed << ": " << remark.text;
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "mdat/missiondb/mission_source.hpp"
+#include "mdat/source/mission_error.hpp"
 #include "ut/mdat/missiondb/support.hpp"
 #include "ut/mdat/modelc/meshes.hpp"
 #include "ut/support/verifies.hpp"
@@ -212,12 +213,12 @@ TEST(MeshFaults, OfAParametricModelFacesInCommonAreNoRemark) {
   VERIFIES("LASSO-GND-166~3");
   Mesh mesh = shapes::box({0, 0, 0}, {1, 0.8, 0.5});
   shapes::append(mesh, shapes::box({0, 0, 0.5}, {1, 0.8, 0.9}));
-  EXPECT_EQ(mesh_remarks(mesh, false).size(), 2U) << "edges, and triangles";
-  EXPECT_TRUE(mesh_remarks(mesh, true).empty());
+  EXPECT_EQ(mesh_remarks("m.stl", mesh, false).size(), 2U) << "edges, and triangles";
+  EXPECT_TRUE(mesh_remarks("m.stl", mesh, true).empty());
   mesh.triangles.pop_back();
   mesh.triangles.pop_back();  // a face of the upper one
-  ASSERT_EQ(mesh_remarks(mesh, true).size(), 1U);
-  EXPECT_EQ(mesh_remarks(mesh, true)[0].text.substr(0, 5), "open:");
+  ASSERT_EQ(mesh_remarks("m.stl", mesh, true).size(), 1U);
+  EXPECT_EQ(mesh_remarks("m.stl", mesh, true)[0].text.substr(0, 5), "open:");
 }
 
 TEST(MeshFaults, TrianglesThatAreLeftOutAreCounted) {
@@ -271,21 +272,24 @@ TEST(MeshFaults, EachRemarkSaysWhatFollowsAndTheRemedy) {
   }
 }
 
-TEST(MeshFaults, AMeshThatCannotBeCompiledIsTold) {
+TEST(MeshFaults, AMeshThatCannotBeCompiledIsRefusedByName) {
   VERIFIES("LASSO-GND-166~3");
   Mesh mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
   mesh.triangles = {{0, 1, 2}};
-  const std::vector<MeshRemark> remarks = mesh_remarks(mesh, false);
-  ASSERT_EQ(remarks.size(), 1U);
-  EXPECT_EQ(remarks[0].text.find("mesh: it cannot be compiled: "), 0U);
+  try {
+    mesh_remarks("line.stl", mesh, false);
+    FAIL() << "no triangle has an area";
+  } catch (const MissionError& error) {
+    EXPECT_EQ(std::string(error.what()).find("line.stl: the mesh cannot be compiled: all 1 triangles are thinner"), 0U) << error.what();
+  }
 }
 
 TEST(MeshFaults, ShippedModelsHaveNone) {
   VERIFIES("LASSO-GND-166~3");
   for (const char* name : {"hubble_tenth", "hubble", "hubble_near", "hubble_stereo", "day_and_night", "laboratory", "rendezvous"}) {
     const MissionSource source = load_mission(kSourceFolder / "cfg/missions" / (std::string(name) + ".toml"));
-    for (const MeshRemark& remark : mesh_remarks(load_target(source), source.target.parametric))
+    for (const MeshRemark& remark : mesh_remarks(name, load_target(source), source.target.parametric))
       ADD_FAILURE() << name << ": " << remark.text;
   }
 }
