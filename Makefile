@@ -87,7 +87,7 @@ BEGIN { n = split("first|measure|board|gate|write", order, "|")
 /^[a-z-]+:.*## / { split($$2, text, ": "); group[++rows] = text[1]; name[rows] = $$1; says[rows] = substr($$2, length(text[1]) + 3) }
 /^## [A-Z]+=/ { split($$1, text, "[ =:]"); values[rows] = values[rows] (values[rows] ? "|" : text[2] "=") text[3]; split($$0, text, ": ")
   each[rows] = each[rows] sprintf("    %-20s %s\n", substr(text[1], 4), substr($$0, length(text[1]) + 3)) }
-function row(i) { return sprintf("  make %-16s %s%s\n", name[i], says[i], values[i] && !of ? ": " values[i] : "") }
+function row(i) { return sprintf("  make %-16s %s%s\n", name[i], says[i], values[i] && !of ? (says[i] ~ /=/ ? " " : ": ") values[i] : "") }
 END { for (i = 1; of && i <= rows; ++i) if (name[i] == of) { printf "%s%s", row(i), each[i]; exit 0 }
   if (of) { print "make help: there is no target " of; exit 2 }
   for (k = 1; k <= n; ++k) { print title[order[k]]; for (i = 1; i <= rows; ++i) if (group[i] == order[k]) printf "%s", row(i); print "" } }
@@ -168,12 +168,17 @@ accuracy: ## measure: errors of eight simulated scenarios against the limits of 
 
 BODIES ?= 1:200
 TRIED := $(call choice,bodies,WHAT,track start search configuration compare)
-bodies: ## measure: fly, start or search bodies that are made from seeds, and count wrong and missing poses: BODIES=1:200 WHAT=track|start|search|configuration|compare FLIGHTS= FRAMES= SENSOR=laser|lidar SET="KEY=VALUE ..."
+bodies: ## measure: fly, start or search bodies that are made from seeds, and count wrong and missing poses: BODIES=1:200 FLIGHTS= SENSOR=laser|lidar SET="KEY=VALUE ..."
 	$(call packages,build)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),bodies)
 	@$(BUILD)/ft/bodies/bodies "$(TRIED)" "$(BODIES)" "$(or $(FLIGHTS),$(if $(filter track,$(TRIED)),6,$(if $(filter configuration,$(TRIED)),10,20)))" "$(or $(FRAMES),60)" "$(or $(SENSOR),-)" "$(JOBS)" \
 	  $(LASSO_OUT)/bodies/$(TRIED)$(if $(SENSOR),-$(SENSOR)) $(SET)
+## WHAT=track: flights that start from the pose of one frame before: FRAMES=
+## WHAT=start: single scans, registered from a rough pose
+## WHAT=search: single scans, searched without any pose
+## WHAT=configuration: single scans of a body that differs from its model: a part gone or turned
+## WHAT=compare: the scans of WHAT=search: two other scores compare what is registered
 
 WITH_BENCH = -DLASSO_BENCH=ON -DLASSO_TESTS=OFF
 bench: ## measure: time the estimate, its stages, and closest-point ICP of Embree and PCL beside it
