@@ -51,9 +51,16 @@ export MDAT_CACHE ?= $(abspath $(LASSO_OUT))/mission-cache
 # Ninja's steps: one changing line on a terminal, a line each in a log.
 export NINJA_STATUS := [%f/%t %es] 
 
-# $(begin) of a gate (nothing old speaks for it), $(call packages,LISTS), $(call configure,FOLDER,CMAKE OPTIONS) (again if they change),
-# $(call compile,FOLDER[,TARGETS]), $(call ctest,FOLDER,REPORTS[,OPTIONS])
-begin = @rm -f $(LASSO_OUT)/$@/summary.json
+# A family is one target, and a variable of the caller's says which of its commands is meant: $(call choice,TARGET,VARIABLE,VALUES) is the value that was
+# given, or the first where none was. Another one ends make before anything is built.
+given = $(or $(strip $($(2))),$(firstword $(3)))
+refused = $(filter-out $(3),$(given))$(filter-out 1,$(words $(given)))
+choice = $(if $(and $(filter $(1),$(MAKECMDGOALS)),$(refused)),$(error make $(1) takes $(2)=$(subst $(space),|,$(3)), not $(2)=$(given)))$(given)
+empty :=
+space := $(empty) $(empty)
+# $(begin) of a gate (nothing old speaks for it), $(call begin,TARGET-VALUE) of one of a family (command_of in cfg/quality/gate.py), $(call packages,LISTS),
+# $(call configure,FOLDER,CMAKE OPTIONS) (again if they change), $(call compile,FOLDER[,TARGETS]), $(call ctest,FOLDER,REPORTS[,OPTIONS])
+begin = @rm -f $(LASSO_OUT)/$(or $(1),$@)/summary.json
 packages = @cfg/packages/ensure $(1)
 configure = @options='$(subst ',,$(2))'; \
   { [ -e $(1)/build.ninja ] && [ "$$(cat $(1)/options.txt 2>/dev/null)" = "$$options" ]; } || { echo "configure $(1)"; mkdir -p $(1); rm -f $(1)/CMakeCache.txt $(1)/build.ninja $(1)/options.txt; \
@@ -70,20 +77,26 @@ ctest = @rm -rf $(2); mkdir -p $(2); env $$(env | sed -n 's/^\(GTEST_[A-Z_]*\|AS
 .PHONY: $(shell awk -F: '/^[a-z-]+:.*## / { print $$1 }' $(firstword $(MAKEFILE_LIST)))
 .DEFAULT_GOAL := help
 
-# Each description begins with its group: "TARGET: ## GROUP: WHAT".
+# Each description begins with its group: "TARGET: ## GROUP: WHAT". "## VARIABLE=VALUE: WHAT" behind a family says what one of its values does: of them the
+# list has the names, and make help WHAT=TARGET all.
 define help_by_group
 BEGIN { n = split("first|measure|board|gate|write", order, "|")
   title["first"] = "Begin here"; title["measure"] = "Measure the component in simulation"
   title["board"] = "On the emulated flight processors"; title["gate"] = "Gates: each fails where something is wrong"
   title["write"] = "Write files of this repository" }
-/^[a-z-]+:.*## / { split($$2, text, ": "); rows[text[1]] = rows[text[1]] sprintf("  make %-16s %s\n", $$1, substr($$2, length(text[1]) + 3)) }
-END { for (i = 1; i <= n; ++i) printf "%s\n%s\n", title[order[i]], rows[order[i]] }
+/^[a-z-]+:.*## / { split($$2, text, ": "); group[++rows] = text[1]; name[rows] = $$1; says[rows] = substr($$2, length(text[1]) + 3) }
+/^## [A-Z]+=/ { split($$1, text, "[ =:]"); values[rows] = values[rows] (values[rows] ? "|" : text[2] "=") text[3]; split($$0, text, ": ")
+  each[rows] = each[rows] sprintf("    %-20s %s\n", substr(text[1], 4), substr($$0, length(text[1]) + 3)) }
+function row(i) { return sprintf("  make %-16s %s%s\n", name[i], says[i], values[i] && !of ? (says[i] ~ /=/ ? " " : ": ") values[i] : "") }
+END { for (i = 1; of && i <= rows; ++i) if (name[i] == of) { printf "%s%s", row(i), each[i]; exit 0 }
+  if (of) { print "make help: there is no target " of; exit 2 }
+  for (k = 1; k <= n; ++k) { print title[order[k]]; for (i = 1; i <= rows; ++i) if (group[i] == order[k]) printf "%s", row(i); print "" } }
 endef
 export help_by_group
-help: ## first: this list
-	@awk -F ':.*## ' "$$help_by_group" $(firstword $(MAKEFILE_LIST))
-	@echo "Scenarios of make run (make run SCENARIO=NAME; another mission by MISSION=FILE)"
-	@for mission in cfg/missions/*.toml; do sed -n 's/^\[scenario\.\([^]]*\)\].*/\1/p' $$mission | xargs echo "  $$mission:"; done
+help: ## first: this list; make help WHAT=TARGET: what each value of its WHAT=, WHERE= or FLIGHT= does
+	@awk -F ':.*## ' -v of="$(WHAT)" "$$help_by_group" $(firstword $(MAKEFILE_LIST))
+	@[ -n "$(WHAT)" ] || echo "Scenarios of make run (make run SCENARIO=NAME; another mission by MISSION=FILE)"
+	@[ -n "$(WHAT)" ] || for mission in cfg/missions/*.toml; do sed -n 's/^\[scenario\.\([^]]*\)\].*/\1/p' $$mission | xargs echo "  $$mission:"; done
 
 run: ## first: track the tenth-scale Hubble in simulation, and write the report out/run/report.html: MISSION= SCENARIO= SENSOR=lcs-wire SEED= FRAMES= OUT=
 	$(call packages,build)
@@ -154,13 +167,18 @@ accuracy: ## measure: errors of eight simulated scenarios against the limits of 
 	@cfg/quality/accuracy $(LASSO_OUT)/accuracy
 
 BODIES ?= 1:200
-WHAT ?= track
-bodies: ## measure: fly, start or search bodies that are made from seeds, and count wrong and missing poses: BODIES=1:200 WHAT=track|start|search|configuration|compare FLIGHTS= FRAMES= SENSOR=laser|lidar SET="KEY=VALUE ..."
+TRIED := $(call choice,bodies,WHAT,track start search configuration compare)
+bodies: ## measure: fly, start or search bodies that are made from seeds, and count wrong and missing poses: BODIES=1:200 FLIGHTS= SENSOR=laser|lidar SET="KEY=VALUE ..."
 	$(call packages,build)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),bodies)
-	@$(BUILD)/ft/bodies/bodies "$(WHAT)" "$(BODIES)" "$(or $(FLIGHTS),$(if $(filter track,$(WHAT)),6,$(if $(filter configuration,$(WHAT)),10,20)))" "$(or $(FRAMES),60)" "$(or $(SENSOR),-)" "$(JOBS)" \
-	  $(LASSO_OUT)/bodies/$(WHAT)$(if $(SENSOR),-$(SENSOR)) $(SET)
+	@$(BUILD)/ft/bodies/bodies "$(TRIED)" "$(BODIES)" "$(or $(FLIGHTS),$(if $(filter track,$(TRIED)),6,$(if $(filter configuration,$(TRIED)),10,20)))" "$(or $(FRAMES),60)" "$(or $(SENSOR),-)" "$(JOBS)" \
+	  $(LASSO_OUT)/bodies/$(TRIED)$(if $(SENSOR),-$(SENSOR)) $(SET)
+## WHAT=track: flights that start from the pose of one frame before: FRAMES=
+## WHAT=start: single scans, registered from a rough pose
+## WHAT=search: single scans, searched without any pose
+## WHAT=configuration: single scans of a body that differs from its model: a part gone or turned
+## WHAT=compare: the scans of WHAT=search: two other scores compare what is registered
 
 WITH_BENCH = -DLASSO_BENCH=ON -DLASSO_TESTS=OFF
 bench: ## measure: time the estimate, its stages, and closest-point ICP of Embree and PCL beside it
@@ -176,34 +194,100 @@ benchmark: ## measure: poses of rough starts on bodies that nobody tuned for, by
 	$(call compile,$(BENCH),mdat peer_poses)
 	@ft/bench/benchmark $(BENCH) $(LASSO_OUT)/benchmark "$(or $(SEED),2001)" "$(or $(COUNT),100)" "$(or $(SCANS),20)" "$(SENSOR)"
 
-# $(call fly,COUNT): the campaign of MISSION that the target is named after (ft/campaign/fly)
+CAMPAIGN := $(call choice,campaign,WHAT,montecarlo basin search endurance strangers sample)
+campaign: ## measure: many flights, counted
+	$(campaign-$(CAMPAIGN))
+
+# $(call fly,CAMPAIGN,COUNT): a campaign of MISSION (ft/campaign/fly)
 define fly
 $(call packages,build)
 $(call configure,$(BUILD),)
 $(call compile,$(BUILD),mdat)
-@ft/campaign/fly $@ $(BUILD) "$(MISSION)" $@ "$(1)" "$(SEED)"
+@ft/campaign/fly campaign-$(1) $(BUILD) "$(MISSION)" $(1) "$(2)" "$(SEED)"
 endef
-basin: ## measure: 1000 starts that are 20 deg and 0.3 m off: how many are found: STARTS= SEED= MISSION=
-	$(begin)
-	$(call fly,$(STARTS))
+## WHAT=montecarlo: 2000 closed-loop flights drawn at random: how often a pose is missing or wrong: FLIGHTS= SEED= MISSION=
+define campaign-montecarlo
+$(call begin,campaign-montecarlo)
+$(call fly,montecarlo,$(FLIGHTS))
+endef
+## WHAT=basin: 1000 starts that are 20 deg and 0.3 m off: how many are found: STARTS= SEED= MISSION=
+define campaign-basin
+$(call begin,campaign-basin)
+$(call fly,basin,$(STARTS))
+endef
+## WHAT=search: the target found from 1000 random views in each case, without any prior attitude: CASE= STARTS= SEED= SCANS= SCALE= MISSION=
+define campaign-search
+$(call packages,build)
+$(call configure,$(BUILD),)
+$(call compile,$(BUILD),search)
+@$(BUILD)/ft/search/search "$(MISSION)" $(or $(CASE),all) $(or $(STARTS),1000) $(or $(SEED),1) $(or $(SCANS),3) $(or $(SCALE),1)
+endef
+## WHAT=endurance: a day of simulated time at 5 Hz: nothing drifts, grows, slips or is wrong: HOURS= SEED=
+define campaign-endurance
+$(call begin,campaign-endurance)
+$(call packages,build)
+$(call configure,$(BUILD),)
+$(call compile,$(BUILD),endurance)
+@ft/campaign/run endurance $(BUILD) $(or $(HOURS),24) $(or $(SEED),1)
+endef
+## WHAT=strangers: a million packets of a stranger who knows the dictionary, against a component with a key, while it tracks: PACKETS=
+define campaign-strangers
+$(call begin,campaign-strangers)
+$(call packages,build test)
+$(call configure,$(BUILD),)
+$(call compile,$(BUILD),ft_operations_stranger_test)
+@LASSO_STRANGERS=$(or $(PACKETS),1000000) $(BUILD)/ft/operations/ft_operations_stranger_test
+endef
+## WHAT=sample: a seeded hundredth of fuzz, flips, statistics and the missions' campaigns; an hour of endurance: a gate
+define campaign-sample
+$(call begin,campaign-sample)
+$(fuzzers)
+$(replays)
+$(call compile,$(BUILD),mdat endurance flips scrub)
+@ft/campaign/sample $(BUILD) $(PPC) $(FUZZ)
+endef
 
-montecarlo: ## measure: 2000 closed-loop flights drawn at random: how often a pose is missing or wrong: FLIGHTS= SEED= MISSION=
-	$(begin)
-	$(call fly,$(FLIGHTS))
+FLIPPED := $(call choice,flips,WHERE,host scrub target sample)
+flips: ## measure: flights, each with one flipped bit
+	$(flips-$(FLIPPED))
 
-flips: ## measure: 10000 flights, each with one flipped bit: masked, reported, silent: FLIPS= SEED=
-	$(begin)
-	$(call packages,build)
-	$(call configure,$(BUILD),)
-	$(call compile,$(BUILD),flips)
-	@ft/campaign/run flips $(BUILD) $(or $(FLIPS),10000) $(or $(SEED),1)
-
-scrub: ## measure: 100000 flips in what the scrub protects: reported in time or not: FLIPS= SEED=
-	$(begin)
-	$(call packages,build)
-	$(call configure,$(BUILD),)
-	$(call compile,$(BUILD),scrub)
-	@ft/campaign/run scrub $(BUILD) $(or $(FLIPS),100000) $(or $(SEED),1)
+# $(call flip,PROGRAM,FLIPS)
+define flip
+$(call packages,build)
+$(call configure,$(BUILD),)
+$(call compile,$(BUILD),$(1))
+@ft/campaign/run $(1) $(BUILD) $(or $(FLIPS),$(2)) $(or $(SEED),1)
+endef
+## WHERE=host: 10000 flips in memory or in a sample: masked, reported, silent: FLIPS= SEED=
+define flips-host
+$(call begin,flips-host)
+$(call flip,flips,10000)
+endef
+## WHERE=scrub: 100000 flips in what the scrub protects: reported in time or not: FLIPS= SEED=
+define flips-scrub
+$(call begin,flips-scrub)
+$(call flip,scrub,100000)
+endef
+# $(call seu,FLIPS,SEED,NAME) flips bits in the running board.
+define seu
+$(call packages,build target)
+$(call configure,$(BUILD),)
+$(call compile,$(BUILD),pil_seu)
+$(call configure,$(BOARD),$(FLIGHT_BOARD))
+$(call compile,$(BOARD),flight_603e layout_603e)
+@ft/pil/seu.py $(BUILD) $(BOARD) $(1) $(2) $(3)
+endef
+## WHERE=target: 2000 flips in the running 603e; goes on where it was: FLIPS= SEED=
+define flips-target
+$(call begin,flips-target)
+$(call seu,$(or $(FLIPS),2000),$(or $(SEED),1),flips-target)
+endef
+## WHERE=sample: eight of these, one in each region: a gate
+define flips-sample
+$(call begin,flips-sample)
+@rm -rf $(LASSO_OUT)/flips-sample
+$(call seu,8,2,flips-sample)
+endef
 
 # $(fuzzers) builds them, with what they test, for coverage and sanitizers.
 define fuzzers
@@ -215,32 +299,6 @@ fuzz: ## measure: a million inputs for each reader of outside bytes: FUZZERS="fr
 	$(begin)
 	$(fuzzers)
 	@ft/fuzz/run $(FUZZ) $(or $(EXECUTIONS),$(if $(SECONDS_EACH),$(SECONDS_EACH)s),1000000) $(or $(SEED),1) $(or $(LARGEST),16384) $(FUZZERS)
-
-statistics: ## board: instructions of 10000 estimates: median, 99th percentile, worst: FRAMES= SEED=
-	$(begin)
-	$(replays)
-	@ft/ppc603e/count $(BUILD) $(PPC) $(or $(FRAMES),10000) $(or $(SEED),1)
-
-endurance: ## measure: a day of simulated time at 5 Hz: nothing drifts, grows, slips or is wrong: HOURS= SEED=
-	$(begin)
-	$(call packages,build)
-	$(call configure,$(BUILD),)
-	$(call compile,$(BUILD),endurance)
-	@ft/campaign/run endurance $(BUILD) $(or $(HOURS),24) $(or $(SEED),1)
-
-strangers: ## measure: a million packets of a stranger who knows the dictionary against a component with a key, while it tracks; PACKETS=
-	$(begin)
-	$(call packages,build test)
-	$(call configure,$(BUILD),)
-	$(call compile,$(BUILD),ft_operations_stranger_test)
-	@LASSO_STRANGERS=$(or $(PACKETS),1000000) $(BUILD)/ft/operations/ft_operations_stranger_test
-
-campaigns-sample: ## gate: a seeded hundredth of fuzz, flips, statistics and the missions' campaigns; an hour of endurance
-	$(begin)
-	$(fuzzers)
-	$(replays)
-	$(call compile,$(BUILD),mdat endurance flips scrub)
-	@ft/campaign/sample $(BUILD) $(PPC) $(FUZZ)
 
 # $(call linked_image,BOARD,IMAGE): a board's image with the shipped mission in itself.
 define linked_image
@@ -271,12 +329,6 @@ commands: ## gate: what README.md and the pages of docs tell a reader to type wo
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),mdat)
 	@cfg/quality/commands $(BUILD)
-
-search: ## measure: find the target from random views without any prior attitude: CASE= STARTS= SEED= SCANS= SCALE=
-	$(call packages,build)
-	$(call configure,$(BUILD),)
-	$(call compile,$(BUILD),search)
-	@$(BUILD)/ft/search/search "$(MISSION)" $(or $(CASE),all) $(or $(STARTS),1000) $(or $(SEED),1) $(or $(SCANS),3) $(or $(SCALE),1)
 
 # Bodies made from seeds that are flown and replayed as well.
 golden_bodies = $(if $(landing),2,20)
@@ -331,38 +383,52 @@ $(call compile,$(PPC),golden_replay)
 endef
 # the same processor without its floating-point unit (ft/ppc603e/soft_float)
 soft = -DLASSO_SOFT_FLOAT=$(abspath $(SOFT))/libsoft_float.a
-ppc-count: ## board: instructions of one estimate, by function; both number types, with and without an FPU: FRAMES=
-	$(begin)
-	$(replays)
-	$(call packages,clang soft-float)
-	$(call configure,$(CLANG),$(FIXED_HOST))
-	$(call compile,$(CLANG),golden_record golden_replay golden_compare)
-	$(call configure,$(PPC)-fixed,$(CROSS) $(FIXED))
-	$(call compile,$(PPC)-fixed,golden_replay)
-	@ft/ppc603e/soft_float/build $(SOFT)
-	$(call configure,$(PPC)-soft,$(CROSS) $(soft))
-	$(call compile,$(PPC)-soft,golden_replay)
-	$(call configure,$(PPC)-soft-fixed,$(CROSS) $(soft) $(FIXED))
-	$(call compile,$(PPC)-soft-fixed,golden_replay)
-	@ft/ppc603e/count $(BUILD) $(PPC) $(FRAMES) fixed=$(CLANG),$(PPC)-fixed soft-float=$(BUILD),$(PPC)-soft soft-fixed=$(CLANG),$(PPC)-soft-fixed
+COUNTED := $(call choice,count,WHAT,estimate start search statistics)
+count: ## board: instructions on the 603e
+	$(count-$(COUNTED))
 
-start-count: ## board: instructions of an estimate from a rough start, and those beyond a frame: STARTS= SEED= MISSION= SCENARIO= RANGES=2,4,7
-	$(begin)
-	$(replays)
-	@ft/ppc603e/count-starts $(BUILD) $(PPC) $(or $(STARTS),300) $(or $(SEED),1) "$(MISSION)" "$(SCENARIO)" "$(RANGES)"
-
-search-count: ## board: instructions of a search, and its largest step: STARTS= SEED=
-	$(begin)
-	$(call packages,build target clang)
-	$(call configure,$(BUILD),)
-	$(call compile,$(BUILD),search search_replay)
-	$(call configure,$(PPC),$(CROSS))
-	$(call compile,$(PPC),search_replay)
-	$(call configure,$(CLANG),$(FIXED_HOST))
-	$(call compile,$(CLANG),search search_replay)
-	$(call configure,$(PPC)-fixed,$(CROSS) $(FIXED))
-	$(call compile,$(PPC)-fixed,search_replay)
-	@ft/ppc603e/count-search $(BUILD) $(PPC) $(CLANG) $(PPC)-fixed $(or $(STARTS),24) $(or $(SEED),11)
+## WHAT=estimate: of one estimate, by function; both number types, with and without an FPU: FRAMES=
+define count-estimate
+$(call begin,count-estimate)
+$(replays)
+$(call packages,clang soft-float)
+$(call configure,$(CLANG),$(FIXED_HOST))
+$(call compile,$(CLANG),golden_record golden_replay golden_compare)
+$(call configure,$(PPC)-fixed,$(CROSS) $(FIXED))
+$(call compile,$(PPC)-fixed,golden_replay)
+@ft/ppc603e/soft_float/build $(SOFT)
+$(call configure,$(PPC)-soft,$(CROSS) $(soft))
+$(call compile,$(PPC)-soft,golden_replay)
+$(call configure,$(PPC)-soft-fixed,$(CROSS) $(soft) $(FIXED))
+$(call compile,$(PPC)-soft-fixed,golden_replay)
+@ft/ppc603e/count $(BUILD) $(PPC) $(FRAMES) fixed=$(CLANG),$(PPC)-fixed soft-float=$(BUILD),$(PPC)-soft soft-fixed=$(CLANG),$(PPC)-soft-fixed
+endef
+## WHAT=start: of an estimate from a rough start, and those beyond a frame: STARTS= SEED= MISSION= SCENARIO= RANGES=2,4,7
+define count-start
+$(call begin,count-start)
+$(replays)
+@ft/ppc603e/count-starts $(BUILD) $(PPC) $(or $(STARTS),300) $(or $(SEED),1) "$(MISSION)" "$(SCENARIO)" "$(RANGES)"
+endef
+## WHAT=search: of a search, and its largest step: STARTS= SEED=
+define count-search
+$(call begin,count-search)
+$(call packages,build target clang)
+$(call configure,$(BUILD),)
+$(call compile,$(BUILD),search search_replay)
+$(call configure,$(PPC),$(CROSS))
+$(call compile,$(PPC),search_replay)
+$(call configure,$(CLANG),$(FIXED_HOST))
+$(call compile,$(CLANG),search search_replay)
+$(call configure,$(PPC)-fixed,$(CROSS) $(FIXED))
+$(call compile,$(PPC)-fixed,search_replay)
+@ft/ppc603e/count-search $(BUILD) $(PPC) $(CLANG) $(PPC)-fixed $(or $(STARTS),24) $(or $(SEED),11)
+endef
+## WHAT=statistics: of 10000 estimates: median, 99th percentile, worst: FRAMES= SEED=
+define count-statistics
+$(call begin,count-statistics)
+$(replays)
+@ft/ppc603e/count $(BUILD) $(PPC) $(or $(FRAMES),10000) $(or $(SEED),1)
+endef
 
 # Without the rig; another board builds the same program with files of its own (docs/porting.md).
 port-check: ## measure: what a port has to give, tried here: arithmetic, memory, stack, same bits, clock, slots: DIGEST= UNTIMED=1
@@ -390,43 +456,41 @@ $(call compile,$(BOARD)-fixed,flight_603e)
 $(call configure,$(SECOND),$(SECOND_BOARD))
 $(call compile,$(SECOND),flight_cortexa9 in_sensor_cortexa9 planted_cortexa9)
 endef
-pil: prove ## board: the component on the bare 603e and Cortex-A9, camera and ground at their lines: FRAMES= FLIGHT=in_sensor
-	$(begin)
-	$(if $(FLIGHT),$(on_first_board),$(on_board))
-	@ft/pil/run.py $(BUILD) $(BOARD) $(CLANG) $(BOARD)-fixed $(SECOND) $(or $(FRAMES),360) $(FLIGHT)
+FLOWN := $(call choice,pil,FLIGHT,full in_sensor sample upload)
+pil: $(if $(filter upload,$(FLOWN))$(if $(ORDERED),$(filter sample,$(FLOWN))),,prove) ## board: the component on the bare 603e and Cortex-A9, camera and ground at their lines
+	$(pil-$(FLOWN))
 
-pil-sample: $(if $(ORDERED),,prove) ## board: the same for a few frames, and the answers of the boards to planted faults
-	$(begin)
-	$(if $(landing),$(on_first_board),$(on_board))
-	$(if $(landing),,$(call linked_image,$(BOARD),linked_603e))
-	@ft/pil/faults $(BUILD) $(BOARD) $(if $(landing),,$(CLANG) $(BOARD)-fixed $(SECOND))
-
-pil-upload: ## board: a mission image over the line of the ground into the store of the 603e, and flown from there
-	$(begin)
-	$(call packages,build target)
-	$(call configure,$(BUILD),)
-	$(call compile,$(BUILD),pil_rig)
-	$(call configure,$(BOARD),$(FLIGHT_BOARD))
-	$(call compile,$(BOARD),flight_603e)
-	@ft/pil/upload $(BUILD) $(BOARD)
-
-# $(call seu,FLIPS,SEED,NAME) flips bits in the running board.
-define seu
+# $(call fly_boards[,in_sensor])
+fly_boards = @ft/pil/run.py $(BUILD) $(BOARD) $(CLANG) $(BOARD)-fixed $(SECOND) $(or $(FRAMES),360) $(1)
+## FLIGHT=full: on both boards and in both number types: FRAMES=
+define pil-full
+$(call begin,pil)
+$(on_board)
+$(call fly_boards)
+endef
+## FLIGHT=in_sensor: the image for a sensor's own processor, its head beside it, on the 603e: FRAMES=
+define pil-in_sensor
+$(call begin,pil-in_sensor)
+$(on_first_board)
+$(call fly_boards,in_sensor)
+endef
+## FLIGHT=sample: a few frames of each, and the answers of the boards to planted faults: a gate
+define pil-sample
+$(call begin,pil-sample)
+$(if $(landing),$(on_first_board),$(on_board))
+$(if $(landing),,$(call linked_image,$(BOARD),linked_603e))
+@ft/pil/faults $(BUILD) $(BOARD) $(if $(landing),,$(CLANG) $(BOARD)-fixed $(SECOND))
+endef
+## FLIGHT=upload: a mission image over the line of the ground into the store of the 603e, and flown from there
+define pil-upload
+$(call begin,pil-upload)
 $(call packages,build target)
 $(call configure,$(BUILD),)
-$(call compile,$(BUILD),pil_seu)
+$(call compile,$(BUILD),pil_rig)
 $(call configure,$(BOARD),$(FLIGHT_BOARD))
-$(call compile,$(BOARD),flight_603e layout_603e)
-@ft/pil/seu.py $(BUILD) $(BOARD) $(1) $(2) $(3)
+$(call compile,$(BOARD),flight_603e)
+@ft/pil/upload $(BUILD) $(BOARD)
 endef
-seu: ## board: 2000 bits flipped in the running 603e; goes on where it was: FLIPS= SEED=
-	$(begin)
-	$(call seu,$(or $(FLIPS),2000),$(or $(SEED),1),seu)
-
-seu-sample: ## board: eight of them, one in each region
-	$(begin)
-	@rm -rf $(LASSO_OUT)/seu-sample
-	$(call seu,8,2,seu-sample)
 
 # $(call proof,FOLDER[,CMAKE OPTIONS]) builds the flight image with its call graph: the one that make pil flies.
 define proof
@@ -565,26 +629,41 @@ inputs: ## gate: gates.toml names what the gates really read; after the gates
 verify: ## gate: every gate in its whole form; goes on where it was, and writes the record by which .ci/run skips
 	@cfg/quality/run-gates verify
 
-icd: ## write: write docs/icd/link.md and python/lasso_mdat/dictionary.json from the dictionary of packets, cfg/mission.schema.json from the rows of keys
-	$(call packages,build)
-	$(call configure,$(BUILD),)
-	$(call compile,$(BUILD),mdat)
-	@$(BUILD)/mdat/mdat dictionary >$(LASSO_OUT)/link.md && { cmp -s $(LASSO_OUT)/link.md docs/icd/link.md || mv $(LASSO_OUT)/link.md docs/icd/link.md; }
-	@$(BUILD)/mdat/mdat dictionary --format json | python/pack_dictionary >$(LASSO_OUT)/dictionary.json && { cmp -s $(LASSO_OUT)/dictionary.json python/lasso_mdat/dictionary.json || mv $(LASSO_OUT)/dictionary.json python/lasso_mdat/dictionary.json; }
-	@$(BUILD)/mdat/mdat mission schema >$(LASSO_OUT)/mission.schema.json && { cmp -s $(LASSO_OUT)/mission.schema.json cfg/mission.schema.json || mv $(LASSO_OUT)/mission.schema.json cfg/mission.schema.json; }
+WRITTEN := $(call choice,write,WHAT,generated icd hazards campaign-table figures)
+write: ## write: pages and tables that programs write
+	$(write-$(WRITTEN))
 
-hazards: ## write: write docs/hazards.md from reqs/hazards.yaml and reqs/fmea.yaml
-	$(call packages,trace)
-	@reqs/hazards
-
-campaign-table: ## write: write the tables of the missions' campaigns of docs/campaigns.md
-	$(call packages,build)
-	$(call configure,$(BUILD),)
-	$(call compile,$(BUILD),mdat)
-	@ft/campaign/table $(BUILD)
-
-figures: ## write: write the measured figures of README.md, docs/benchmarks.md and docs/benchmark-protocol.md
-	@docs/figures
+## WHAT=generated: icd, hazards and campaign-table: all that is made of sources
+define write-generated
+$(write-icd)
+$(write-hazards)
+$(write-campaign-table)
+endef
+## WHAT=icd: docs/icd/link.md and python/lasso_mdat/dictionary.json from the dictionary of packets, cfg/mission.schema.json from the rows of keys
+define write-icd
+$(call packages,build)
+$(call configure,$(BUILD),)
+$(call compile,$(BUILD),mdat)
+@$(BUILD)/mdat/mdat dictionary >$(LASSO_OUT)/link.md && { cmp -s $(LASSO_OUT)/link.md docs/icd/link.md || mv $(LASSO_OUT)/link.md docs/icd/link.md; }
+@$(BUILD)/mdat/mdat dictionary --format json | python/pack_dictionary >$(LASSO_OUT)/dictionary.json && { cmp -s $(LASSO_OUT)/dictionary.json python/lasso_mdat/dictionary.json || mv $(LASSO_OUT)/dictionary.json python/lasso_mdat/dictionary.json; }
+@$(BUILD)/mdat/mdat mission schema >$(LASSO_OUT)/mission.schema.json && { cmp -s $(LASSO_OUT)/mission.schema.json cfg/mission.schema.json || mv $(LASSO_OUT)/mission.schema.json cfg/mission.schema.json; }
+endef
+## WHAT=hazards: docs/hazards.md from reqs/hazards.yaml and reqs/fmea.yaml
+define write-hazards
+$(call packages,trace)
+@reqs/hazards
+endef
+## WHAT=campaign-table: the tables of the missions' campaigns of docs/campaigns.md
+define write-campaign-table
+$(call packages,build)
+$(call configure,$(BUILD),)
+$(call compile,$(BUILD),mdat)
+@ft/campaign/table $(BUILD)
+endef
+## WHAT=figures: the measured figures of README.md, docs/benchmarks.md and docs/benchmark-protocol.md, from results in out/
+define write-figures
+@docs/figures
+endef
 
 format: ## write: format all tracked sources
 	$(call packages,lint)

@@ -1,7 +1,13 @@
 """Evidence of analyses, inspections and demonstrations: the file, what it has to say, and the command by which a reader repeats it (reqs/README.md)."""
 import functools
 import operator
+import pathlib
 import re
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / 'cfg/quality'))
+from gate import command_of  # noqa: E402
+import gate_table  # noqa: E402
 
 COMPARE = {'<=': operator.le, '>=': operator.ge, '=': operator.eq, '<': operator.lt, '>': operator.gt}
 FIGURE = re.compile(r'\{(<=|>=|<|>|=) ?([\d.,]+)\}')  # in a text of `shows`: a number stands here, and keeps this limit
@@ -11,18 +17,18 @@ FORM = re.compile(r'make [a-z][a-z0-9-]*( [A-Z_]+=("[^"]*"|\S+))*|mdat [a-z]+( \
 
 @functools.cache
 def make_gates(root):
-    """The targets that take away their old summary first, and so leave one."""
-    return _targets(root, r'^([a-z][a-z0-9-]*):.*\n\t\$\(begin\)$')
+    """The commands that take away their old summary first, and so leave one."""
+    return gate_table.begun(_makefile(root))
 
 
 @functools.cache
 def make_targets(root):
-    return _targets(root, r'^([a-z][a-z0-9-]*):')
+    return re.findall(r'^([a-z][a-z0-9-]*):', _makefile(root), re.MULTILINE)
 
 
-def _targets(root, pattern):
+def _makefile(root):
     makefile = root / 'Makefile'
-    return re.findall(pattern, makefile.read_text(encoding='utf-8'), re.MULTILINE) if makefile.is_file() else []
+    return makefile.read_text(encoding='utf-8') if makefile.is_file() else ''
 
 
 def is_file_within(root, name):
@@ -81,8 +87,8 @@ def check_evidence(item, root):
         wrong = missing_of(text, words)
         if wrong:
             yield f'{item.at("shows")}: {item.id}: its evidence {item.evidence} {wrong}: correct one of the two'
-    if not item.shows and not (item.gate and re.search(rf'\bmake {item.gate}\b(?!-)', words)):
-        also = f', nor does the file name make {item.gate}' if item.gate else ''
+    if not item.shows and not (item.gate and re.search(rf'\bmake {command_of(item.gate)}\b(?!-)', words)):
+        also = f', nor does the file name make {command_of(item.gate)}' if item.gate else ''
         yield f'{item.at("evidence")}: {item.id}: nothing says what {item.evidence} has to show{also}: add "shows" with the words or figures that count'
 
 

@@ -39,7 +39,7 @@ class Evidence(unittest.TestCase):
         self.addCleanup(self.folder.cleanup)
         self.root = pathlib.Path(self.folder.name)
         (self.root / 'page.md').write_text(PAGE)
-        (self.root / 'Makefile').write_text('look:\n\tls\ngolden: ## x\n\t$(begin)\n')
+        (self.root / 'Makefile').write_text('look:\n\tls\ngolden: ## x\n\t$(begin)\ndefine pil-sample\n$(call begin,pil-sample)\nendef\n')
         for cached in (trace_evidence.make_gates, trace_evidence.make_targets):
             cached.cache_clear()
 
@@ -59,6 +59,12 @@ class Evidence(unittest.TestCase):
         self.assertIn('nor does the file name make golden', self.problems(gate='golden'))
         (self.root / 'page.md').write_text('what make golden compares')
         self.assertEqual(self.problems(gate='golden'), '')
+
+    def test_a_gate_of_a_family(self):
+        self.assertEqual(trace_evidence.make_gates(self.root), ['golden', 'pil-sample'])
+        self.assertIn('nor does the file name make pil FLIGHT=sample', self.problems(gate='pil-sample'))
+        (self.root / 'page.md').write_text('what make pil FLIGHT=sample flies')
+        self.assertEqual(self.problems(gate='pil-sample'), '')
 
     def test_a_figure_beyond_its_limit(self):
         self.assertIn('its evidence page.md says "silent | 0", where > 0 is asked: correct one of the two', self.problems(shows=('silent | {> 0}',)))

@@ -2,6 +2,8 @@
 import json
 import os
 
+from gate import command_of
+
 NOT_RUN, SAMPLE, SHORT, UNCHANGED = 'not run', 'a sample', 'short form', 'unchanged'
 
 
@@ -14,10 +16,10 @@ def read_summary(out, gate):
     try:
         summary = json.loads(path.read_text(encoding='utf-8'))
     except (ValueError, OSError) as error:
-        raise ValueError(f'{place}:{getattr(error, "lineno", 1)}: not readable ({error}): run make {gate} again') from error
+        raise ValueError(f'{place}:{getattr(error, "lineno", 1)}: not readable ({error}): run make {command_of(gate)} again') from error
     good = isinstance(summary, dict) and isinstance(summary.get('passed'), bool) and isinstance(summary.get('figures'), dict)
     if not good or summary.get('gate') != gate:
-        raise ValueError(f'{place}:1: not the summary of gate {gate} ("gate", "passed", "figures"): run make {gate} again')
+        raise ValueError(f'{place}:1: not the summary of gate {gate} ("gate", "passed", "figures"): run make {command_of(gate)} again')
     return summary
 
 
@@ -48,11 +50,11 @@ def check_gates(items, out, complete=False):
             problems.append(str(error))
             results[item.gate] = 'failed'
         if item.active and results[item.gate] == 'failed':
-            problems.append(f'{item.at("gate")}: {item.id} rests on make {item.gate}, which failed: correct the cause and run it again')
+            problems.append(f'{item.at("gate")}: {item.id} rests on make {command_of(item.gate)}, which failed: correct the cause and run it again')
         if item.active and results[item.gate] == SAMPLE and complete:
-            problems.append(f'{item.at("gate")}: {item.id} rests on make {item.gate}, which has run as a sample: run it whole')
+            problems.append(f'{item.at("gate")}: {item.id} rests on make {command_of(item.gate)}, which has run as a sample: run it whole')
         if item.active and results[item.gate] == NOT_RUN and complete:
-            problems.append(f'{item.at("gate")}: {item.id} rests on make {item.gate}, which has not run: run it before')
+            problems.append(f'{item.at("gate")}: {item.id} rests on make {command_of(item.gate)}, which has not run: run it before')
         if item.active and results[item.gate] in (SHORT, UNCHANGED) and complete:
-            problems.append(f'{item.at("gate")}: {item.id} rests on make {item.gate}, of which only this is known: {results[item.gate]}; run it whole')
+            problems.append(f'{item.at("gate")}: {item.id} rests on make {command_of(item.gate)}, of which only this is known: {results[item.gate]}; run it whole')
     return results, list(dict.fromkeys(problems))

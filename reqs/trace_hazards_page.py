@@ -4,7 +4,7 @@ import trace_hazards
 PAGE = 'docs/hazards.md'
 HEAD = '''# Hazards and failure modes
 
-Written by `make hazards` from [reqs/hazards.yaml](../reqs/hazards.yaml) and [reqs/fmea.yaml](../reqs/fmea.yaml). **Self-assessed**: the project looked
+Written by `make write WHAT=hazards` from [reqs/hazards.yaml](../reqs/hazards.yaml) and [reqs/fmea.yaml](../reqs/fmea.yaml). **Self-assessed**: the project looked
 itself, no outside body did. The component alone is looked at. Each hazard says what is left to the spacecraft.
 
 `make requirements` checks that each control is an active requirement, and that each hazard and failure has one that a test or a gate exercises. `make trace`
@@ -75,4 +75,4 @@ def text_of(safety):
 def check_page(safety, root):
     page = root / PAGE
     if safety.rows and (not page.is_file() or page.read_text(encoding='utf-8') != text_of(safety)):
-        yield f'{PAGE}:1: not what reqs/hazards.yaml and reqs/fmea.yaml say: make hazards writes it'
+        yield f'{PAGE}:1: not what reqs/hazards.yaml and reqs/fmea.yaml say: make write WHAT=hazards writes it'

@@ -94,9 +94,9 @@ class HazardsTest(unittest.TestCase):
 
     def test_the_page_is_that_of_the_files(self):
         self.edit('reqs/fmea.yaml', 'by eye', 'by hand')
-        self.says('docs/hazards.md:1: not what reqs/hazards.yaml and reqs/fmea.yaml say: make hazards writes it')
+        self.says('docs/hazards.md:1: not what reqs/hazards.yaml and reqs/fmea.yaml say: make write WHAT=hazards writes it')
         (self.top / 'docs/hazards.md').unlink()
-        self.says('make hazards writes it')
+        self.says('make write WHAT=hazards writes it')
 
     def test_controls_that_are_not_shown(self):
         items, _ = trace_items.read_items(self.top)

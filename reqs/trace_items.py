@@ -205,7 +205,7 @@ def check_method(item, root):
     if by_test or not item.active:
         return
     if item.gate and item.gate not in trace_evidence.make_gates(root):
-        yield f'{item.at("gate")}: {item.id}: there is no make {item.gate} yet that is a gate: correct the name, or plan the item until there is'
+        yield f'{item.at("gate")}: {item.id}: there is no make {trace_evidence.command_of(item.gate)} yet that is a gate: correct the name, or plan the item until there is'
     yield from trace_evidence.check_evidence(item, root)
 
 

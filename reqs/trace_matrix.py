@@ -5,6 +5,7 @@ import html
 import os
 import pathlib
 
+import trace_gates
 import trace_hazards
 import trace_reports
 
@@ -173,7 +174,7 @@ class Page:
         if item.missing:
             parts.append(f'<br>missing: {escape(item.missing)}')
         if item.gate:
-            parts.append(f'<br>make {escape(item.gate)}: {self.matrix.gates.get(item.gate, "not run")}')
+            parts.append(f'<br>make {escape(trace_gates.command_of(item.gate))}: {self.matrix.gates.get(item.gate, "not run")}')
         tests = trace_reports.tests_of(item, self.matrix.tests)
         if tests:
             parts.append(f'<details><summary>{count_of({test.name for test in tests}, "test", "tests")}</summary>{self.test_list(tests)}</details>')

@@ -33,7 +33,7 @@ set(LASSO_SMALL_SOURCES
     pose/silhouette/ray_placement.cpp pose/silhouette/silhouette.cpp
     pose/tracking/bearing.cpp pose/tracking/pose_filter.cpp)
 # These work once a ray, in searches alone. In fixed point -O3 makes them 9 kB larger, for which there is no room; in floating point 2 kB, and
-# without it a search exceeds its 200 million instructions (make search-count).
+# without it a search exceeds its 200 million instructions (make count WHAT=search).
 if(LASSO_NUMBER STREQUAL "fixed")
   list(APPEND LASSO_SMALL_SOURCES pose/recognition/acceptance.cpp pose/recognition/hypothesis_score.cpp pose/recognition/view_matching.cpp)
 endif()

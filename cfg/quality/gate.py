@@ -33,6 +33,14 @@ TOOLS = {
     'node': ('nodejs', 'web'),
     'npm': ('npm', 'web'),
 }
+# Targets of make that stand for several commands, and the variable that says which.
+FAMILIES = {'campaign': 'WHAT', 'count': 'WHAT', 'flips': 'WHERE', 'pil': 'FLIGHT'}
+
+
+def command_of(name):
+    """What make is told for the gate or campaign that leaves its results in out/NAME: NAME itself, of a family TARGET VARIABLE=VALUE for TARGET-VALUE."""
+    target, _, value = name.partition('-')
+    return f'{target} {FAMILIES[target]}={value}' if value and target in FAMILIES else name
 
 
 def commit(top=TOP):
@@ -105,7 +113,7 @@ class Gate:
 
     def __exit__(self, kind, error, trace):
         if isinstance(error, OSError) and error.filename:
-            self.find(f'{error.filename}: {error.strerror}: give the right folder, and build first what it holds (make {self.name})')
+            self.find(f'{error.filename}: {error.strerror}: give the right folder, and build first what it holds (make {command_of(self.name)})')
         elif isinstance(error, subprocess.CalledProcessError):
             self.find(f'{error.cmd[0]} ended with {error.returncode}: {(error.stderr or "what it says above").strip()}')
         elif kind is not None and kind is not Stopped:

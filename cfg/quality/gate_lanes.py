@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 
+import gate as gates
 from progress import clock
 
 LANES = 2
@@ -148,7 +149,7 @@ class Lanes:
                 continue
             self.running.remove(job)
             job.signal(signal.SIGKILL)  # what it left behind
-            wrong = self.judge(job.row) if done[0] == 0 else f'make {job.row.name} ended with {done[0]}'
+            wrong = self.judge(job.row) if done[0] == 0 else f'make {gates.command_of(job.row.name)} ended with {done[0]}'
             self.results.append((job.row, 'FAILED' if wrong else 'passed', job.wall(), done[1]))
             self.conclude(job, wrong, done[1])
 

@@ -2,10 +2,14 @@
 import dataclasses
 import fnmatch
 import pathlib
+import re
 import tomllib
+
+import gate as gates
 
 PLACE = 'cfg/quality/gates.toml'
 TIERS = ('landing', 'verify')
+BEGUN = re.compile(r'^([a-z][a-z0-9-]*):.*\n\t\$\(begin\)$|^\$\(call begin,([\w-]+)\)$', re.MULTILINE)  # in the Makefile
 
 
 @dataclasses.dataclass(frozen=True)
@@ -21,9 +25,9 @@ class Row:
     after: tuple = ()
     cost: tuple = (0, 0)
 
-    def arguments(self, tier):
-        """Those of make."""
-        return (self.landing if tier == 'landing' else self.verify).split()
+    def words(self, tier):
+        """Those of make: its target, and arguments."""
+        return [*gates.command_of(self.name).split(), *(self.landing if tier == 'landing' else self.verify).split()]
 
     def whole(self, tier):
         """Whether the form of that tier says as much as that of verify."""
@@ -35,6 +39,11 @@ class Row:
     def shares(self, other):
         """Whether both build in one folder."""
         return any(fnmatch.fnmatchcase(mine, theirs) or fnmatch.fnmatchcase(theirs, mine) for mine in self.folders for theirs in other.folders)
+
+
+def begun(makefile):
+    """What takes away its old summary first, and so leaves one: gates and campaigns, each by the name of its folder below out/."""
+    return [target or of_family for target, of_family in BEGUN.findall(makefile)]
 
 
 def matches(patterns, file):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What figures are of: commit, date and machine, and the sources that decide them.
 
-measured.py COMMAND FILE: adds this to FILE, the JSON results of `make COMMAND`. docs/figures writes no figure whose sources have changed since.
+measured.py NAME FILE: adds this to FILE, the JSON results in out/NAME (command_of in gate.py). docs/figures writes no figure whose sources have changed since.
 """
 import datetime
 import hashlib
@@ -20,7 +20,7 @@ SOURCES = {
     'run': (*FLIGHT, *SIMULATION),
     'bench': (*FLIGHT, *SIMULATION, 'ft/bench'),
     'benchmark': (*FLIGHT, *SIMULATION, 'ft/bench', 'mdat/benchmark', 'mdat/bodies', 'mdat/replay'),
-    'ppc-count': (*FLIGHT, *SIMULATION, *TARGET, 'ft/golden', 'ft/ppc603e'),
+    'count-estimate': (*FLIGHT, *SIMULATION, *TARGET, 'ft/golden', 'ft/ppc603e'),
     'prove': (*FLIGHT, *TARGET),
 }
 
@@ -32,13 +32,13 @@ def first_line(*command):
         return ''
 
 
-def sources(command, top=gates.TOP):
-    """A digest of the command's sources as they are now; empty outside of a repository."""
-    files = subprocess.run(['git', '-C', str(top), 'ls-files', '-z', '--', *SOURCES[command]], capture_output=True, check=False).stdout.split(b'\0')
+def sources(name, top=gates.TOP):
+    """A digest of the sources of results in out/NAME as they are now; empty outside of a repository."""
+    files = subprocess.run(['git', '-C', str(top), 'ls-files', '-z', '--', *SOURCES[name]], capture_output=True, check=False).stdout.split(b'\0')
     digest = hashlib.sha256()
-    for name in filter(None, sorted(files)):
-        path = pathlib.Path(top, os.fsdecode(name))
-        digest.update(name + b'\0' + (hashlib.sha256(path.read_bytes()).digest() if path.is_file() else b''))
+    for file in filter(None, sorted(files)):
+        path = pathlib.Path(top, os.fsdecode(file))
+        digest.update(file + b'\0' + (hashlib.sha256(path.read_bytes()).digest() if path.is_file() else b''))
     return digest.hexdigest() if any(files) else ''
 
 
@@ -50,14 +50,14 @@ def processor():
     return next((line.split(':', 1)[1].strip() for line in lines if line.startswith('model name')), 'unknown')
 
 
-def measured(command):
+def measured(name):
     return {'commit': gates.commit(), 'date': datetime.date.today().isoformat(), 'processor': processor(), 'cores': os.cpu_count(),
-            'compiler': first_line('g++', '--version'), 'sources': sources(command)}
+            'compiler': first_line('g++', '--version'), 'sources': sources(name)}
 
 
-def main(command, file):
+def main(name, file):
     path = pathlib.Path(file)
-    path.write_text(json.dumps(json.loads(path.read_text(encoding='utf-8')) | {'measured': measured(command)}, indent=1) + '\n', encoding='utf-8')
+    path.write_text(json.dumps(json.loads(path.read_text(encoding='utf-8')) | {'measured': measured(name)}, indent=1) + '\n', encoding='utf-8')
 
 
 if __name__ == '__main__':

@@ -259,7 +259,7 @@ TEST(Link, InterfaceDocumentIsUpToDate) {
   const Answer answer = work.mdat("dictionary");
   ASSERT_EQ(answer.exit_code, 0);
   EXPECT_TRUE(answer.out == read_text(source_path("docs/icd/link.md")))
-      << "docs/icd/link.md is not what mdat dictionary says: make icd writes it";
+      << "docs/icd/link.md is not what mdat dictionary says: make write WHAT=icd writes it";
 }
 
 // The texts of the dictionary are for the ground.

@@ -51,7 +51,7 @@ TEST(ShippedCampaigns, ArePrintedOnTheirPage) {
     const Answer table = work.mdat("campaign list --markdown " + source_path(mission));
     ASSERT_EQ(table.exit_code, 0) << table.err;
     EXPECT_NE(page.find(table.out), std::string::npos)
-        << "docs/campaigns.md is not what " << mission << " says: make campaign-table writes it";
+        << "docs/campaigns.md is not what " << mission << " says: make write WHAT=campaign-table writes it";
   }
 }
 

@@ -1,6 +1,6 @@
 // A stranger who knows the dictionary, the key's form and all that was said before, but not the key, floods a component while it tracks:
 // nothing of his is accepted, the poses are those of a flight that he has left alone, to the bit, and each command of the operator is
-// answered within two frames. LASSO_STRANGERS says how many packets he sends: make strangers sends a million.
+// answered within two frames. LASSO_STRANGERS says how many packets he sends: make campaign WHAT=strangers sends a million.
 #include <gtest/gtest.h>
 
 #include <algorithm>

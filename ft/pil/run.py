@@ -3,7 +3,7 @@
 
 All are build folders: of the PowerPC 603e and its host, of both in fixed point, and of the Cortex-A9. FLIGHT in_sensor flies the image with its head beside it
 instead, on the 603e alone (docs/in-sensor.md), for which the first two folders are enough. Flies FRAMES frames (360) on each host and board, at a time, compares
-the telemetry bit by bit, and leaves instructions, margins and stacks in out/pil (of in_sensor in out/pil-in-sensor): results.json, report.html, summary.json, which says that fewer frames
+the telemetry bit by bit, and leaves instructions, margins and stacks in out/pil (of in_sensor in out/pil-in_sensor): results.json, report.html, summary.json, which says that fewer frames
 are a sample. Exit codes: 0 the
 same bits, within the limits; 1 not; 2 usage.
 """
@@ -29,7 +29,7 @@ from progress import Progress  # noqa: E402
 WHOLE_FRAMES, MOST_FRAMES = 360, 100_000  # LASSO-PLT-014
 MISSION, SCENARIO, SLOTS, PERIOD_MS = 'cfg/missions/hubble_tenth.toml', 'spin', 20, 200
 # Of each flight: its number type and board; where make prove leaves the bounds of its stacks, where it does.
-FOLDERS = {'': 'pil', 'in_sensor': 'pil-in-sensor'}  # of FLIGHT: whose results do not take the others' place
+FOLDERS = {'': 'pil', 'in_sensor': 'pil-in_sensor'}  # of FLIGHT: whose results do not take the others' place
 FLIGHTS = 'float', 'fixed', 'cortexa9'  # of a run; in_sensor is one by itself, on the second board in samples alone
 IN_SENSOR = 'in_sensor', 'in_sensor_cortexa9'
 NUMBERS = {'float': 'float', 'fixed': 'fixed', 'cortexa9': 'float', 'in_sensor': 'float', 'in_sensor_cortexa9': 'float'}

@@ -2,7 +2,7 @@
 """seu.py HOST BOARD [FLIPS [SEED [NAME]]]: single bits flipped in the running board: code, image, parameters, mode, data, stack, registers (docs/pil.md).
 
 HOST and BOARD are build folders. FLIPS (2000) flips, an eighth in each region, each in a flight of its own from a state of one flight; where and when depends
-on SEED (1) and the flip's number. JOBS in the environment says how many boards fly beside each other (one a core). Leaves out/NAME (seu): flips.csv,
+on SEED (1) and the flip's number. JOBS in the environment says how many boards fly beside each other (one a core). Leaves out/NAME (flips-target): flips.csv,
 results.json, report.html, summary.json. Interrupted, it goes on where it was, if image and seed are the same.
 Exit codes: 0 no wrong pose stayed untold for 10 s, of a flip in what is protected; 1 one was, or the board fails without a flip.
 """
@@ -41,10 +41,10 @@ OUTCOMES = {
     'reset': 'the board restarted',
     'hang': 'no more word of the board for as long as 100 frames without a flip take, 20 s of the host at least: it hangs, or damaged code has made it restart nine times in a row',
     'told_wrong': 'a wrong pose as valid, and the flip reported within 10 s, or a reset',
-    'silent_wrong': 'a wrong pose as valid, and not a word within 10 s of the flip: silent as in make scrub',
+    'silent_wrong': 'a wrong pose as valid, and not a word within 10 s of the flip: silent as in make flips WHERE=scrub',
 }
-# Of all outcomes, after their sum: flights with a wrong pose as valid, which are silent as in make flips, and those where it came before or with the word of the flip.
-WRONG = {'wrong': 'a wrong pose as valid, whatever followed: silent as in make flips', 'wrong_first': 'of these, with a wrong pose no later than the frame in which the flip was told, if it was'}
+# Of all outcomes, after their sum: flights with a wrong pose as valid, which are silent as in make flips WHERE=host, and those where it came before or with the word of the flip.
+WRONG = {'wrong': 'a wrong pose as valid, whatever followed: silent as in make flips WHERE=host', 'wrong_first': 'of these, with a wrong pose no later than the frame in which the flip was told, if it was'}
 COLUMNS = ('number', 'region', 'frame', 'slot', 'where', 'bit', 'instruction', 'outcome', 'told_after', 'wrong', 'invalid', 'frames', 'first_wrong')
 SHORTEST_RUN = 50  # of numbers, each of which begins with the flight without a flip
 WHOLE_FLIPS, MOST_FLIPS = 2000, 1_000_000  # LASSO-PLT-018
@@ -274,10 +274,10 @@ def conclude(gate, rows, seed, version, seconds, started):
     gate.figure('silent wrong elsewhere', sum(counts[region]['silent_wrong'] for region in REGIONS if region not in PROTECTED))
 
 
-def main(host, board, flips=str(WHOLE_FLIPS), seed='1', name='seu'):
+def main(host, board, flips=str(WHOLE_FLIPS), seed='1', name='flips-target'):
     emulator.end_with_children()
     with gates.Gate(name) as gate:
-        flips = gate.number('FLIPS', flips, MOST_FLIPS, WHOLE_FLIPS if name == 'seu' else None)
+        flips = gate.number('FLIPS', flips, MOST_FLIPS, WHOLE_FLIPS if name == 'flips-target' else None)
         seed = gate.number('SEED', seed, MOST_SEED)
         elf, begun = f'{board}/flight_603e.elf', time.monotonic()
         try:

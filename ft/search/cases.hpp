@@ -1,4 +1,4 @@
-// The cases of `make search`: what is in view, and how it is seen.
+// The cases of `make campaign WHAT=search`: what is in view, and how it is seen.
 #pragma once
 
 #include <cstdint>

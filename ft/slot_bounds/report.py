@@ -1,5 +1,6 @@
 """The tables of docs/slot-times.md, and what is said of a loop without a bound."""
 import bounds
+import gate as gates
 import loops
 import stages
 
@@ -62,7 +63,7 @@ def missing(bounded, function, loop):
 
 def tables(code, found, results, bounded, commit):
     """Of the sources at that commit."""
-    measured = ', '.join(f'`make {name}` at commit {of.get("measured", of)["commit"]}' for name, of in results.items() if of)
+    measured = ', '.join(f'`make {gates.command_of(name)}` at commit {of.get("measured", of)["commit"]}' for name, of in results.items() if of)
     parts = [f'Derived at commit {commit}, in instructions. Measured by {measured or "nothing"}.']
     parts += ['### Slots', stage_table(found, stages.SLOTS, results), '### Estimation', stage_table(found, stages.ESTIMATION, results)]
     for title in stages.SHOWN:

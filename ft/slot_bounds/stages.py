@@ -22,8 +22,8 @@ BOUNDARY_TASK = r'lasso::Component::pass_boundary\('
 RIG = r'lasso::bare::Flight::let_world_move\('  # the board's clock stands still there
 BOUNDARY = (('pil', 'float', 'instructions', 'boundary', 'worst'),)
 POLL = (('pil', 'float', 'instructions', 'largest_poll', 'worst'),)
-SEARCH_STEP, SEARCH_SLICE = (('search-count', 'float', '*', 'step'),), (('search-count', 'float', '*', 'slice'),)
-TRACKED = (('pil', 'float', 'instructions', 'estimate', 'worst'), ('ppc-count', 'instructions', '*', 'max'))
+SEARCH_STEP, SEARCH_SLICE = (('count-search', 'float', '*', 'step'),), (('count-search', 'float', '*', 'slice'),)
+TRACKED = (('pil', 'float', 'instructions', 'estimate', 'worst'), ('count-estimate', 'instructions', '*', 'max'))
 ESTIMATE = (*TRACKED, *SEARCH_SLICE)
 
 SLOTS = [

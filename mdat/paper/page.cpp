@@ -69,7 +69,7 @@ std::string time_section(const PaperResult& result) {
              "estimate (range image in, "
              "pose and covariance out) on one core of %s. The machines differ: the ratios are of machines and programs together. What an "
              "estimate takes on the "
-             "603e is counted by <code>make ppc-count</code>.</p>\n",
+             "603e is counted by <code>make count WHAT=estimate</code>.</p>\n",
              escape(result.machine).c_str()) +
          to_html(html) + "</section>\n";
 }

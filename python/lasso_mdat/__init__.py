@@ -3,7 +3,7 @@
     run = lasso_mdat.open_recording('spin.mcap')      # run['/pose'], run.clouds('/scan'), run.packets()['pose']
     lasso_mdat.open_packets('telemetry.ccsds')        # ['pose']['p_sensor_target_m']
     lasso_mdat.open_results('out/run')                # .summary, .frames, .packets
-    lasso_mdat.open_campaign('out/basin/campaign')    # .summary, .cases
+    lasso_mdat.open_campaign('out/campaign-basin/campaign')  # .summary, .cases
     lasso_mdat.register(scan, mesh, prior), lasso_mdat.search(scan, mesh)
 
 Pure Python and NumPy; zstd and the registration are reached by ctypes.

@@ -1,4 +1,4 @@
-"""CCSDS packets of the component (docs/icd/link.md), by the dictionary that lies beside this file (make icd writes it)."""
+"""CCSDS packets of the component (docs/icd/link.md), by the dictionary that lies beside this file (make write WHAT=icd writes it)."""
 import binascii
 import collections
 import functools

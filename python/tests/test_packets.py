@@ -77,7 +77,7 @@ class PacketsTest(unittest.TestCase):
     def test_the_dictionary_is_that_of_mdat(self):
         packed = subprocess.run([sys.executable, flown.TOP / 'python/pack_dictionary'], input=flown.mdat('dictionary', '--format', 'json'), capture_output=True,
                                 text=True, check=True).stdout
-        self.assertEqual(json.load(io.StringIO(packed)), reader.dictionary(), 'make icd writes it')
+        self.assertEqual(json.load(io.StringIO(packed)), reader.dictionary(), 'make write WHAT=icd writes it')
 
 
 if __name__ == '__main__':

@@ -1,5 +1,5 @@
 // What the parts of a search cost. Work is counted in units of kInstructionsPerUnit instructions of a PowerPC 603e, in every stage, so that
-// a slice of it is a bound of time; `make search-count` measures what a unit is worth and holds it (docs/search.md).
+// a slice of it is a bound of time; `make count WHAT=search` measures what a unit is worth and holds it (docs/search.md).
 #pragma once
 
 #include <cstddef>
