@@ -77,7 +77,7 @@ TEST(Approach, SaysInWordsThatNoPoseIsValid) {
 
 // Twenty random attitudes, each start turned end for end.
 TEST(Approach, AStartHalfATurnOffIsNeverConfirmed) {
-  VERIFIES("LASSO-MOD-182~1");
+  VERIFIES("LASSO-MOD-182~2");
   const WorkFolder work;
   const Answer answer = work.mdat("run " + kFullSize + " --scenario half_turn --no-report --out out");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
@@ -90,7 +90,7 @@ TEST(Approach, AStartHalfATurnOffIsNeverConfirmed) {
 // Twenty random attitudes of the tenth-scale target, each start turned by 150 deg: what a scan would confirm a search of it contradicts.
 // Then the target is searched, and all are tracked.
 TEST(Approach, AStartThatItsScanWouldConfirmIsContradictedAndTheTargetFound) {
-  VERIFIES("LASSO-MOD-184~5 LASSO-MOD-182~1");
+  VERIFIES("LASSO-MOD-184~5 LASSO-MOD-182~2");
   const WorkFolder work;
   const Answer answer = work.mdat("run " + source_path("cfg/missions/hubble_tenth.toml") + " --scenario wrong_start --no-report --out out");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;

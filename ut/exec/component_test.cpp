@@ -36,7 +36,7 @@ PoseTelemetry report_of(ComponentScene& scene, std::uint32_t scan_id) {
 }
 
 TEST(Component, ReportsEachScanTwoBoundariesLater) {
-  VERIFIES("LASSO-EXE-002~1 LASSO-SYS-023~1 LASSO-SYS-027~1");
+  VERIFIES("LASSO-EXE-002~1 LASSO-SYS-023~1 LASSO-SYS-027~1 LASSO-MOD-141~2");
   ComponentScene scene(started_parameters());
   scene.begin();
   for (std::uint32_t frame = 0; frame < 40; ++frame) {
@@ -102,7 +102,7 @@ TEST(Component, PlansFromThePredictionOfTheLastPublishedScan) {
 }
 
 TEST(Component, LostScansCoastAndAreCounted) {
-  VERIFIES("LASSO-EXE-005~1 LASSO-MOD-005~1 LASSO-HLT-011~1");
+  VERIFIES("LASSO-EXE-005~1 LASSO-MOD-005~2 LASSO-HLT-011~1");
   ComponentScene scene(started_parameters());
   scene.sensor.lost = {10};
   scene.sensor.refused = {11};
@@ -144,14 +144,23 @@ TEST(Component, LateEstimateIsDroppedWholeAndTheTrackGoesOn) {
 }
 
 TEST(Component, LostTrackStopsScanningAndSaysSo) {
-  VERIFIES("LASSO-MOD-007~1");
+  VERIFIES("LASSO-MOD-007~2");
   MissionParameters p = started_parameters();
   p.coast_frames = 2;
   ComponentScene scene(p);
   scene.sensor.lost = {5, 6, 7};
   scene.begin();
-  EXPECT_EQ(report_of(scene, 7).mode, kLost);
+  const PoseTelemetry last = report_of(scene, 7);
+  EXPECT_EQ(last.mode, kLost);
   const int starts = scene.sensor.starts;
+  for (std::uint32_t frame = 8; frame < 12; ++frame) {
+    const auto told = scene.run_frame();
+    ASSERT_EQ(told.size(), 1u) << "each frame says so";
+    EXPECT_EQ(told[0].pose.mode, kLost);
+    EXPECT_EQ(told[0].pose.valid, 0);
+    EXPECT_EQ(told[0].pose.t_measurement_us, last.t_measurement_us);
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(told[0].pose.p_sensor_target_m[i], last.p_sensor_target_m[i]) << "the last prediction";
+  }
   const PoseTelemetry after = report_of(scene, 12);
   EXPECT_EQ(scene.sensor.starts, starts);
   EXPECT_EQ(after.mode, kLost);
@@ -185,7 +194,7 @@ TEST(Component, StartsAgainFromAGivenPose) {
 }
 
 TEST(Component, RefusesAStartThatMeansNothing) {
-  VERIFIES("LASSO-MOD-008~1 LASSO-SYS-011~1");
+  VERIFIES("LASSO-MOD-008~2 LASSO-SYS-011~1");
   ComponentScene scene(started_parameters());
   EXPECT_EQ(scene.component->start_tracking(Pose{}, Twist{}, 0), Status::kBadOrder);
   EXPECT_EQ(scene.component->stop_tracking(), Status::kBadOrder);

@@ -103,7 +103,7 @@ class ModeManagerAlone : public ::testing::Test {
 const std::vector<std::pair<InitialPoseSource, StartRefusal>> kOneTooOld{{InitialPoseSource::kUplink, StartRefusal::kTooOld}};
 
 TEST_F(ModeManagerAlone, AStartThatAJumpOvertakesIsRefused) {
-  VERIFIES("LASSO-MOD-134~2 LASSO-HLT-006~1");
+  VERIFIES("LASSO-MOD-134~3 LASSO-HLT-006~1");
   ASSERT_EQ(offer(InitialPoseSource::kUplink), StartRefusal::kNone);
   modes.follow_jump(-20'000'000);
   modes.apply_request();
@@ -112,7 +112,7 @@ TEST_F(ModeManagerAlone, AStartThatAJumpOvertakesIsRefused) {
 }
 
 TEST_F(ModeManagerAlone, AStartOfTheTargetBeforeIsRefused) {
-  VERIFIES("LASSO-MOD-134~2 LASSO-IMG-013~1");
+  VERIFIES("LASSO-MOD-134~3 LASSO-IMG-013~1");
   ASSERT_EQ(offer(InitialPoseSource::kUplink), StartRefusal::kNone);
   modes.take_over_track(false, true);
   modes.apply_request();
@@ -160,7 +160,7 @@ TEST_F(ModeManagerAlone, ACheckedStartIsConfirmedAnewWithAnotherImageOfItsTarget
 }
 
 TEST_F(ModeManagerAlone, ACheckedStartIsRefusedWhereItIsGivenUpAlone) {
-  VERIFIES("LASSO-MOD-188~1 LASSO-MOD-134~2");
+  VERIFIES("LASSO-MOD-188~1 LASSO-MOD-134~3");
   verify();
   follow(E::kPoseInvalid, M::kVerifying);
   follow(E::kConfirmAnew, M::kStarting);

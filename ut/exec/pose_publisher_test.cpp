@@ -158,7 +158,7 @@ TEST(PosePublisher, APoseIsReportedInStandbyWhenAskedFor) {
 }
 
 TEST(PosePublisher, PosesThatAreNotSentCountAndTheirChangesAreEvents) {
-  VERIFIES("LASSO-LNK-014~1 LASSO-MOD-172~1");
+  VERIFIES("LASSO-LNK-014~1 LASSO-MOD-172~2");
   Link link;
   link.send(test::of_structure(CommandKind::kDisableStructure, kPoseStructureId, 0));
   std::size_t changes = 0;

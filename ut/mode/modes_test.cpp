@@ -83,7 +83,7 @@ TEST(Modes, EachModeAnswersEveryResultOfItsScans) {
 }
 
 TEST(Modes, FollowTheStoryOfATrack) {
-  VERIFIES("LASSO-MOD-002~1");
+  VERIFIES("LASSO-MOD-002~2");
   EXPECT_EQ(next_mode(M::kStandby, E::kStart), M::kStarting);
   EXPECT_EQ(next_mode(M::kStarting, E::kPoseInvalid), M::kStarting);
   EXPECT_EQ(next_mode(M::kStarting, E::kPoseValid), M::kTracking);
@@ -137,7 +137,7 @@ TEST(Modes, FollowTheStoryOfASearch) {
 }
 
 TEST(Modes, FollowTheStoryOfAnApproachAndBack) {
-  VERIFIES("LASSO-MOD-164~1");
+  VERIFIES("LASSO-MOD-164~2");
   EXPECT_EQ(next_mode(M::kTracking, E::kNear), M::kShortRange);
   EXPECT_EQ(next_mode(M::kShortRange, E::kPoseValid), M::kShortRange);
   EXPECT_EQ(next_mode(M::kShortRange, E::kPoseInvalid), M::kShortRange);

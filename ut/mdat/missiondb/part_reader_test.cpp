@@ -50,7 +50,7 @@ TEST_F(PartReaderTest, ReadsWhatAPartIsAndWhereItServes) {
 }
 
 TEST_F(PartReaderTest, APartWithoutAModelIsNamedWithItsPlaceAndTheRemedy) {
-  VERIFIES("LASSO-MOD-182~1");
+  VERIFIES("LASSO-MOD-182~2");
   expect_error("[part.bay]\n" + kPlace, "m.toml:7:1: part.bay.box_m");
   expect_error("[part.bay]\n" + kPlace, "exactly one model: box_m (cut from the target), model or mesh; 0 are given");
   expect_error("[part.bay]\n" + kPlace + kBox + "mesh = 'x.stl'\n", "2 are given");

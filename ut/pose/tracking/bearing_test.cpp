@@ -171,7 +171,7 @@ TEST_F(BearingTest, AccelerationsLetTheVelocityForget) {
 }
 
 TEST_F(BearingTest, BackgroundAndStraysHardlyMoveTheCentroid) {
-  VERIFIES("LASSO-MOD-102~1");
+  VERIFIES("LASSO-MOD-102~2");
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     place(20, seed);
     seed_ = 50 * seed;
