@@ -38,7 +38,7 @@ void expect_sane(const Json& variant, bool noise, double rms_mm, double rms_deg)
 }
 
 TEST(PaperRun, LeavesResultsReportAndTelemetry) {
-  VERIFIES("LASSO-NEED-012~1 LASSO-MDT-004~1 LASSO-GND-030~1 LASSO-SYS-001~1 LASSO-MDT-009~1 LASSO-MDT-010~1");
+  VERIFIES("LASSO-NEED-012~1 LASSO-MDT-004~1 LASSO-GND-030~1 LASSO-SYS-001~2 LASSO-MDT-009~1 LASSO-MDT-010~1");
   const WorkFolder work;
   work.write_mission(kTwoRanges);
   const Answer answer = work.mdat("run missions/test.toml --frames 12 --seed 7 --out out/run");

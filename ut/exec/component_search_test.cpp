@@ -144,7 +144,7 @@ TEST(ComponentSearch, ARightStartIsToldAsUncheckedAndThenTracked) {
 
 // The scan that a check searches is of the old clock's time.
 TEST(ComponentSearch, AStartThatIsCheckedIsConfirmedAnewWhenTheClockJumps) {
-  VERIFIES("LASSO-MOD-188~1 LASSO-HLT-006~1");
+  VERIFIES("LASSO-MOD-188~1 LASSO-HLT-006~2");
   constexpr DurationUs kJump_us = 60'000'000;
   ComponentScene scene(checked_parameters(), test::uneven_scene());
   ASSERT_EQ(begin_with_right_start(scene), StartRefusal::kNone);

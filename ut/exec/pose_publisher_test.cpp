@@ -80,7 +80,7 @@ TEST(PosePublisher, PosesBetweenNamedFramesAreSentWhereTheImageNamesThem) {
 
 // The estimate was done when the clock jumped: its pose, of the old clock's time, is none of the frame's.
 TEST(PosePublisher, AnEstimateOfBeforeAJumpIsNotReported) {
-  VERIFIES("LASSO-LNK-050~1 LASSO-HLT-006~1");
+  VERIFIES("LASSO-LNK-050~1 LASSO-HLT-006~2");
   const test::BoxScene truth = test::default_scene();
   test::ComponentScene scene(
       truth, test::make_image(test::box_parameters(truth), test::with_frames(test::make_box_tables(truth.boxes()), {NamedFrame{}})));
