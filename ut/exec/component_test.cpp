@@ -63,7 +63,7 @@ TEST(Component, PublishesWithinFourTenthsOfASecond) {
 }
 
 TEST(Component, TracksTheTarget) {
-  VERIFIES("LASSO-EXE-005~1 LASSO-SYS-001~2");
+  VERIFIES("LASSO-EXE-005~1 LASSO-SYS-001~2 LASSO-MOD-131~1");
   ComponentScene scene(started_parameters());
   scene.begin();
   const test::BoxScene truth = test::default_scene();
@@ -78,6 +78,7 @@ TEST(Component, TracksTheTarget) {
       EXPECT_EQ(report.pose.plan_points, 1024);
     }
   }
+  EXPECT_EQ(last.start_source, static_cast<std::uint8_t>(InitialPoseSource::kApriori)) << "the mission's own pose";
   // In metres and radians, and per second: the filtered pose and its rates.
   PoseTelemetry filtered = last;
   std::copy_n(last.filter_q_sensor_target, 4, filtered.q_sensor_target);

@@ -248,8 +248,9 @@ TEST_F(TrackedComponent, AfterTheWatchdogItBeginsInSafe) {
   EXPECT_TRUE(scene.component->faults().active().has(Fault::kWatchdogReset));
 }
 
-// As the first packet `health` of the stream says.
-unsigned failed_tests(const std::vector<std::uint8_t>& stream) {
+// The first packet `health` of the stream.
+HealthTelemetry health_of(const std::vector<std::uint8_t>& stream) {
+  HealthTelemetry health;
   for (std::size_t at = 0; at < stream.size();) {
     const std::size_t size = packet_size({stream.data() + at, stream.size() - at});
     PacketHeader header;
@@ -257,19 +258,18 @@ unsigned failed_tests(const std::vector<std::uint8_t>& stream) {
     EXPECT_EQ(parse_packet({stream.data() + at, size}, header, data), PacketFault::kNone);
     at += size;
     if (header.service != kServiceHousekeeping || data[1] != kHealthStructureId) continue;
-    HealthTelemetry health;
     ByteReader in(data);
     in.u16();
     codec_of(health_rows::kRows).read(in, health);
-    return health.failed_tests;
+    return health;
   }
   ADD_FAILURE() << "no packet health";
-  return 0;
+  return health;
 }
 
 // A processor that rounds otherwise than the component was verified with.
 TEST_F(TrackedComponent, AProcessorThatComputesOtherwiseBeginsInSafe) {
-  VERIFIES("LASSO-HLT-009~2 LASSO-HLT-002~1");
+  VERIFIES("LASSO-HLT-009~2 LASSO-HLT-002~1 LASSO-SYS-025~2");
   ASSERT_EQ(scene.load().status, Status::kOk);
   ASSERT_EQ(std::fesetround(FE_UPWARD), 0);
   const Status begun = scene.component->begin(0);
@@ -279,7 +279,9 @@ TEST_F(TrackedComponent, AProcessorThatComputesOtherwiseBeginsInSafe) {
   story.run(scene, 3);
   story.expect({{M::kStandby, E::kMakeSafe, M::kSafe}});
   EXPECT_TRUE(scene.component->faults().active().has(Fault::kSelfTestFailed));
-  EXPECT_NE(failed_tests(scene.stream) & 1U, 0U) << "rounding";
+  const HealthTelemetry health = health_of(scene.stream);
+  EXPECT_NE(health.failed_tests & 1U, 0U) << "rounding";
+  EXPECT_EQ(health.active_faults, 1U << static_cast<unsigned>(Fault::kSelfTestFailed));
 }
 
 TEST_F(TrackedComponent, AStartWhoseTestsPassSaysSoWithTheLaserInhibited) {
@@ -287,7 +289,9 @@ TEST_F(TrackedComponent, AStartWhoseTestsPassSaysSoWithTheLaserInhibited) {
   scene.begin();
   EXPECT_FALSE(scene.sensor.laser_permitted);
   story.run(scene, 3);
-  EXPECT_EQ(failed_tests(scene.stream), 0U);
+  const HealthTelemetry health = health_of(scene.stream);
+  EXPECT_EQ(health.failed_tests, 0U);
+  EXPECT_EQ(health.active_faults, 0U);
 }
 
 TEST(HealthMonitor, AClockThatJumpsIsFollowedAndTheTargetLookedForAgain) {

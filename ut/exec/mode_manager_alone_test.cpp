@@ -136,7 +136,7 @@ TEST_F(ModeManagerAlone, ASearchBeginsAnewWhenTheClockJumps) {
 const std::vector<std::pair<M, M>> kBack{{M::kVerifying, M::kStarting}};
 
 TEST_F(ModeManagerAlone, ACheckedStartIsConfirmedAnewWhenTheClockJumps) {
-  VERIFIES("LASSO-MOD-188~1 LASSO-HLT-006~2");
+  VERIFIES("LASSO-MOD-188~2 LASSO-HLT-006~2");
   verify();
   for (int jump = 0; jump < 2; ++jump) modes.follow_jump(60'000'000);
   EXPECT_EQ(modes.mode(), M::kStarting);
@@ -147,7 +147,7 @@ TEST_F(ModeManagerAlone, ACheckedStartIsConfirmedAnewWhenTheClockJumps) {
 }
 
 TEST_F(ModeManagerAlone, ACheckedStartIsConfirmedAnewWithAnotherImageOfItsTarget) {
-  VERIFIES("LASSO-MOD-188~1 LASSO-IMG-013~1");
+  VERIFIES("LASSO-MOD-188~2 LASSO-IMG-013~1");
   verify();
   modes.take_over_track(true, true);
   EXPECT_EQ(modes.mode(), M::kStarting);
@@ -160,7 +160,7 @@ TEST_F(ModeManagerAlone, ACheckedStartIsConfirmedAnewWithAnotherImageOfItsTarget
 }
 
 TEST_F(ModeManagerAlone, ACheckedStartIsRefusedWhereItIsGivenUpAlone) {
-  VERIFIES("LASSO-MOD-188~1 LASSO-MOD-134~3");
+  VERIFIES("LASSO-MOD-188~2 LASSO-MOD-134~3");
   verify();
   follow(E::kPoseInvalid, M::kVerifying);
   follow(E::kConfirmAnew, M::kStarting);

@@ -21,7 +21,7 @@ std::size_t poses(const std::vector<Packet>& packets) {
 
 // Of each pair in the image, and of the same scan as the packet pose; none without.
 TEST(PosePublisher, PosesBetweenNamedFramesAreSentWhereTheImageNamesThem) {
-  VERIFIES("LASSO-LNK-050~1 LASSO-LNK-051~1");
+  VERIFIES("LASSO-LNK-050~1 LASSO-LNK-051~1 LASSO-SYS-024~1");
   const test::BoxScene truth = test::default_scene();
   const NamedFrame docking = test::grapple_in_port();
   const test::BoxTables tables = test::make_box_tables(truth.boxes());

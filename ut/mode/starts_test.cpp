@@ -167,7 +167,7 @@ TEST_F(StartsTest, WhatIsNotAtTheBearingIsRefused) {
 }
 
 TEST_F(StartsTest, TheSourcesFollowTheMissionsOrder) {
-  VERIFIES("LASSO-MOD-131~1 LASSO-MOD-133~3");
+  VERIFIES("LASSO-MOD-131~1 LASSO-MOD-133~4");
   InitialPoseSources sources;
   MissionParameters& p = mission_.parameters;
   EXPECT_EQ(sources.next(p, false), InitialPoseSource::kNone);
@@ -188,7 +188,7 @@ TEST_F(StartsTest, TheSourcesFollowTheMissionsOrder) {
 }
 
 TEST_F(StartsTest, SearchHasItsTurnWhereItIsPossibleAndAgainWhenAllElseIsTried) {
-  VERIFIES("LASSO-MOD-131~1 LASSO-MOD-133~3");
+  VERIFIES("LASSO-MOD-131~1 LASSO-MOD-133~4");
   InitialPoseSources sources;
   MissionParameters& p = mission_.parameters;
   p.start_first = static_cast<double>(InitialPoseSource::kSearch);
@@ -204,7 +204,7 @@ TEST_F(StartsTest, SearchHasItsTurnWhereItIsPossibleAndAgainWhenAllElseIsTried) 
 }
 
 TEST_F(StartsTest, TheOrderNamesItsSources) {
-  VERIFIES("LASSO-MOD-133~3");
+  VERIFIES("LASSO-MOD-133~4");
   MissionParameters& p = mission_.parameters;
   p.start_first = static_cast<double>(InitialPoseSource::kSearch);
   p.start_fifth = static_cast<double>(InitialPoseSource::kUplink);

@@ -190,7 +190,7 @@ TEST_F(MastTest, AStartOfASymmetricTargetIsTaken) {
 }
 
 TEST_F(TrackerTest, BeginningATrackTakesMoreThanKeepingIt) {
-  VERIFIES("LASSO-MOD-135~2");
+  VERIFIES("LASSO-MOD-135~3");
   MissionParameters p = test::box_parameters(scene_);
   p.inlier_share_min = 0.9;
   p.start_inlier_share_min = p.agreement_min = 0;
@@ -215,7 +215,7 @@ TEST_F(TrackerTest, BeginningATrackTakesMoreThanKeepingIt) {
 }
 
 TEST_F(TrackerTest, BeginningATrackTakesHalfTheContradictionsThatKeepIt) {
-  VERIFIES("LASSO-MOD-135~2");
+  VERIFIES("LASSO-MOD-135~3");
   MissionParameters p = test::box_parameters(scene_);
   p.start_inlier_share_min = p.agreement_min = p.inlier_share_min = 0;
   p.hysteresis = 0.5;

@@ -222,7 +222,7 @@ TEST_F(TrackerTest, LooksNearThePredictionThenForTheBearing) {
 
 // Of a mission that asks for no recovery: which event ends a start that no scan confirms.
 TEST_F(TrackerTest, AStartThatIsNotConfirmedLeavesASearchThatIsInTheOrder) {
-  VERIFIES("LASSO-MOD-133~3");
+  VERIFIES("LASSO-MOD-133~4");
   for (const bool ordered : {true, false}) {
     for (const InitialPoseSource source : {InitialPoseSource::kUplink, InitialPoseSource::kSearch}) {
       MissionParameters p = test::box_parameters(scene_);
@@ -245,7 +245,7 @@ TEST_F(TrackerTest, AStartThatIsNotConfirmedLeavesASearchThatIsInTheOrder) {
 }
 
 TEST_F(TrackerTest, AHeldModeDoesNotEndByItself) {
-  VERIFIES("LASSO-MOD-136~3");
+  VERIFIES("LASSO-MOD-136~4");
   MissionParameters p = test::box_parameters(scene_);
   p.coast_frames = 1;
   load(p);

@@ -56,7 +56,7 @@ TEST_F(FitTest, TheNoiseWidensWhatCountsAsOnTheSurface) {
 }
 
 TEST_F(FitTest, EndsOnceTheScoreExceedsTheLimit) {
-  VERIFIES("LASSO-MOD-117~1");
+  VERIFIES("LASSO-MOD-117~2");
   scan();
   const auto subset = make_evidence();
   const std::size_t all = subset->hits.size() + subset->misses.size();

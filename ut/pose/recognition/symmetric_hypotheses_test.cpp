@@ -69,7 +69,7 @@ TEST_F(TwinsTest, OfTheBestPoseAsItStandsAreFoundInTheSecondScan) {
 }
 
 TEST_F(TwinsTest, AreFoundInTheFirstScan) {
-  VERIFIES("LASSO-MOD-121~1");
+  VERIFIES("LASSO-MOD-121~1 LASSO-SYS-024~1");
   search_->begin(limits_);
   ASSERT_EQ(search(), Status::kOk);
   EXPECT_EQ(result().outcome, SearchOutcome::kAmbiguous);
