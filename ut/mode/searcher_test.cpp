@@ -271,7 +271,7 @@ TEST_F(SymmetricSearcherTest, AnAmbiguousTargetTakesFurtherScansAndThenASearchAn
 }
 
 TEST_F(SymmetricSearcherTest, IsGivenUpAfterItsFrames) {
-  VERIFIES("LASSO-MOD-138~1 LASSO-MOD-142~2");
+  VERIFIES("LASSO-MOD-138~1 LASSO-MOD-142~2 LASSO-MOD-171~3");
   parameters().search_frames = 2;
   SearchLimits limits;
   limits.ratio_min = 100;

@@ -122,7 +122,7 @@ TEST_F(TrackerTest, AStartFartherOffThanItsCovarianceSaysIsNotConfirmed) {
 }
 
 TEST_F(MastTest, AStartHalfATurnOffIsNeverTracked) {
-  VERIFIES("LASSO-MOD-132~1 LASSO-MOD-134~3 LASSO-MOD-182~2");
+  VERIFIES("LASSO-MOD-132~1 LASSO-MOD-134~3 LASSO-MOD-171~3 LASSO-MOD-182~2");
   load_with_others(0.9);
   start(small_error());
   track_view(0);
@@ -190,7 +190,7 @@ TEST_F(MastTest, AStartOfASymmetricTargetIsTaken) {
 }
 
 TEST_F(TrackerTest, BeginningATrackTakesMoreThanKeepingIt) {
-  VERIFIES("LASSO-MOD-135~3");
+  VERIFIES("LASSO-MOD-135~3 LASSO-MOD-171~3");
   MissionParameters p = test::box_parameters(scene_);
   p.inlier_share_min = 0.9;
   p.start_inlier_share_min = p.agreement_min = 0;
@@ -215,7 +215,7 @@ TEST_F(TrackerTest, BeginningATrackTakesMoreThanKeepingIt) {
 }
 
 TEST_F(TrackerTest, BeginningATrackTakesHalfTheContradictionsThatKeepIt) {
-  VERIFIES("LASSO-MOD-135~3");
+  VERIFIES("LASSO-MOD-135~3 LASSO-MOD-171~3");
   MissionParameters p = test::box_parameters(scene_);
   p.start_inlier_share_min = p.agreement_min = p.inlier_share_min = 0;
   p.hysteresis = 0.5;

@@ -48,7 +48,7 @@ TEST_F(TrackerTest, CoastsOnThePredictionAndTakesUpTheTrackAgain) {
 }
 
 TEST_F(TrackerTest, IsLostAfterTheFramesOfTheMission) {
-  VERIFIES("LASSO-MOD-007~2 LASSO-MOD-002~2 LASSO-MOD-005~2");
+  VERIFIES("LASSO-MOD-007~2 LASSO-MOD-002~2 LASSO-MOD-005~2 LASSO-MOD-171~3");
   MissionParameters p = test::box_parameters(scene_);
   p.coast_frames = 3;
   load(p);
@@ -195,7 +195,7 @@ TEST_F(TrackerTest, WithoutATrackTheLastPoseStandsWithItsOwnTime) {
 }
 
 TEST_F(TrackerTest, LooksNearThePredictionThenForTheBearing) {
-  VERIFIES("LASSO-MOD-138~1 LASSO-MOD-003~3");
+  VERIFIES("LASSO-MOD-138~1 LASSO-MOD-003~3 LASSO-MOD-171~3");
   MissionParameters p = test::box_parameters(scene_);
   p.coast_frames = 2;
   p.reacquire_frames = 3;
