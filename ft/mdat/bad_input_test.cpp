@@ -76,7 +76,7 @@ TEST(BadMission, ScenarioThatDoesNotExist) {
 
 // What a mission says of a part can be read, but the part has no model there.
 TEST(BadMission, APartWithoutAModel) {
-  VERIFIES("LASSO-MDT-007~1 LASSO-MOD-182~1");
+  VERIFIES("LASSO-MDT-007~1 LASSO-MOD-182~2");
   const std::string part = "\n[part.bay]\nrange_m = [1.0, 5.0]\nview = [0, 0, -2]\n";
   for (const char* model : {"model = \"gone.toml\"", "mesh = \"models\"", "mesh = \"empty.obj\"", "box_m = [80, 80, 80, 81, 81, 81]"}) {
     const WorkFolder work;

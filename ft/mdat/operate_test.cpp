@@ -34,7 +34,7 @@ double time_of(const Json& packet) {
 }
 
 TEST(Operate, AnOperatorCommandsARunningComponent) {
-  VERIFIES("LASSO-NEED-009~1 LASSO-LNK-026~2 LASSO-GND-021~2 LASSO-LNK-017~1 LASSO-LNK-022~1 LASSO-MOD-136~3 LASSO-MOD-173~1");
+  VERIFIES("LASSO-NEED-009~1 LASSO-LNK-026~2 LASSO-GND-021~2 LASSO-LNK-017~1 LASSO-LNK-022~1 LASSO-MOD-136~4 LASSO-MOD-173~2");
   const WorkFolder work;
   for (const std::string scheme : {"udp", "tcp"}) {
     const std::string url = scheme + "://127.0.0.1:" + free_port();

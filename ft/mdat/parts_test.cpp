@@ -10,7 +10,7 @@ namespace {
 const std::string kNearMission = source_path("cfg/missions/hubble_near.toml");
 
 TEST(CloseBy, TheFilterHoldsAFullSizeTargetOfWhichNoScanSeesTheWhole) {
-  VERIFIES("LASSO-MOD-161~2 LASSO-MOD-163~3 LASSO-MOD-164~1 LASSO-SIM-035~1");
+  VERIFIES("LASSO-MOD-161~3 LASSO-MOD-163~3 LASSO-MOD-164~2 LASSO-SIM-035~1");
   const WorkFolder work;
   const Answer answer = work.mdat("run " + kNearMission + " --scenario close_by --out out");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;

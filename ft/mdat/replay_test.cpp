@@ -147,7 +147,7 @@ TEST_F(Replay, FindsEachScansPoseWithoutAnyOrSaysWhyNot) {
 }
 
 TEST_F(Replay, ASearchSaysThatThereWereTooFewReturns) {
-  VERIFIES("LASSO-MOD-111~1 LASSO-MOD-122~1");
+  VERIFIES("LASSO-MOD-111~1 LASSO-MOD-122~2");
   std::string scan = "t_s,x_m,y_m,z_m,valid\n";
   for (int i = 0; i < 60; ++i)
     scan += std::to_string(0.003 * i) + (i < 57 ? ",0,0,1,0\n" : ",0.1,0.02," + std::to_string(3.9 + 0.001 * i) + ",1\n");

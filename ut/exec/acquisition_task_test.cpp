@@ -59,7 +59,7 @@ TEST_F(AcquisitionTaskTest, FillsTheOtherImageAfterTheHandOver) {
 
 // Whatever the attitude, no part of the model is outside the scan.
 TEST_F(AcquisitionTaskTest, ATargetOfUnknownAttitudeIsScannedAllAround) {
-  VERIFIES("LASSO-MOD-123~3 LASSO-MOD-111~1");
+  VERIFIES("LASSO-MOD-123~4 LASSO-MOD-111~1");
   Aim aim;
   aim.T_sensor_target.p = Vec3(0.2, -0.1, 3.0);
   aim.any_attitude = true;

@@ -106,7 +106,7 @@ TEST(CommandDispatcher, AStartByUplinkIsTrackedFromTheNextBoundaryOn) {
 }
 
 TEST(CommandDispatcher, ACommandedModeIsTakenAtTheNextBoundary) {
-  VERIFIES("LASSO-LNK-022~1");
+  VERIFIES("LASSO-LNK-022~1 LASSO-MOD-173~2");
   Link link;
   link.send(test::set_mode(static_cast<std::uint8_t>(TrackingMode::kBearing)));
   link.send(test::set_hold(1, 1));
@@ -290,7 +290,7 @@ TEST(CommandDispatcher, EventsAreDisabledAndEnabledByCommand) {
 
 // The story of modes is reported twice: in the pose packets, and as events.
 TEST(CommandDispatcher, EveryTransitionIsAnEventWithItsReason) {
-  VERIFIES("LASSO-MOD-172~1");
+  VERIFIES("LASSO-MOD-172~2");
   Link link;
   std::vector<Stream> events, changes;
   std::uint16_t count = 0;
@@ -311,6 +311,13 @@ TEST(CommandDispatcher, EveryTransitionIsAnEventWithItsReason) {
   }
   EXPECT_GE(events.size(), 5u);
   EXPECT_EQ(events, changes);
+  auto mode = static_cast<std::uint8_t>(TrackingMode::kStandby);
+  for (const Stream& event : events) {
+    EXPECT_EQ(event[0], mode) << "none is missing";
+    mode = event[2];
+    EXPECT_EQ(mode, static_cast<std::uint8_t>(next_mode(static_cast<TrackingMode>(event[0]), static_cast<ModeEvent>(event[1]))));
+  }
+  EXPECT_EQ(mode, static_cast<std::uint8_t>(TrackingMode::kStandby)) << "as it was commanded at the end";
 }
 
 TEST(CommandDispatcher, LostScansAndSensorsAreEvents) {

@@ -246,7 +246,7 @@ void expect_told(const BadScan& bad, const std::vector<L>& losses) {
 }
 
 TEST_F(BadScanTest, InTrackingEachIsToldAndTheTrackCoastsAndGoesOn) {
-  VERIFIES("LASSO-MOD-181~2");
+  VERIFIES("LASSO-MOD-181~3");
   for (const BadScan& bad : cases()) {
     SetUp();
     std::vector<L> losses;
@@ -269,7 +269,7 @@ TEST_F(BadScanTest, InTrackingEachIsToldAndTheTrackCoastsAndGoesOn) {
 }
 
 TEST_F(BadScanTest, InBearingEachIsToldAndNoPoseIsPublished) {
-  VERIFIES("LASSO-MOD-181~2");
+  VERIFIES("LASSO-MOD-181~3");
   for (const BadScan& bad : cases()) {
     if (bad.bearings.empty()) continue;
     SetUp();
@@ -290,7 +290,7 @@ TEST_F(BadScanTest, InBearingEachIsToldAndNoPoseIsPublished) {
 }
 
 TEST_F(BadScanTest, AStartIsNotConfirmedByAny) {
-  VERIFIES("LASSO-MOD-181~2");
+  VERIFIES("LASSO-MOD-181~3");
   for (const BadScan& bad : cases()) {
     SetUp();
     std::vector<L> losses;
@@ -309,7 +309,7 @@ TEST_F(BadScanTest, AStartIsNotConfirmedByAny) {
 
 // Without noise and motion, and with a pattern that does not turn, each scan is as the one before: that is no fault.
 TEST(StillScene, ScansThatAreAlikeByRightAreTaken) {
-  VERIFIES("LASSO-MOD-181~2");
+  VERIFIES("LASSO-MOD-181~3");
   test::BoxScene still = test::default_scene();
   still.rates = Twist();
   still.sigma_m = 0;

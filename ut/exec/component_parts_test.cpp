@@ -1,7 +1,7 @@
 // The whole component close to a target that it scans part by part.
 #include <set>
 
-#include "ut/exec/component_scene.hpp"
+#include "ut/exec/component_operator.hpp"
 #include "ut/support/box_parts.hpp"
 
 namespace lasso {
@@ -39,7 +39,7 @@ std::vector<PoseTelemetry> run(ComponentScene& scene, int frames) {
 }
 
 TEST(ComponentParts, ScansThePartsInTurnAndHandsOverBothWays) {
-  VERIFIES("LASSO-MOD-161~2 LASSO-MOD-162~1 LASSO-MOD-164~1 LASSO-MOD-171~2");
+  VERIFIES("LASSO-MOD-161~3 LASSO-MOD-162~1 LASSO-MOD-164~2 LASSO-MOD-171~3");
   ComponentScene scene(leaving_scene(), image_with_parts(test::two_halves()));
   scene.begin();
   ASSERT_EQ(scene.component->parts().size(), 2U);
@@ -74,7 +74,7 @@ TEST(ComponentParts, APartWhoseScansOutlastThePeriodIsRefused) {
 }
 
 TEST(ComponentParts, AModeThatIsLeftWhereItIsEnteredIsRefused) {
-  VERIFIES("LASSO-MOD-171~2");
+  VERIFIES("LASSO-MOD-171~3");
   MissionParameters p = parameters();
   p.short_range_leave_m = p.short_range_enter_m;
   ComponentScene scene(leaving_scene(), test::make_box_image(p));
@@ -84,7 +84,7 @@ TEST(ComponentParts, AModeThatIsLeftWhereItIsEnteredIsRefused) {
 }
 
 TEST(ComponentParts, AScanOfAPartIsLaidOverThePart) {
-  VERIFIES("LASSO-MOD-161~2");
+  VERIFIES("LASSO-MOD-161~3");
   ComponentScene scene(leaving_scene(), image_with_parts(test::two_halves()));
   scene.begin();
   double whole = 0;
@@ -120,11 +120,18 @@ TEST(ComponentParts, APartThatIsNotWhereItsModelSaysIsDroppedAndTold) {
     EXPECT_LT(scene.error(t).tail<3>().norm(), 3e-3) << t.scan_id;
   }
   EXPECT_GE(inconsistent, 1U);
+  std::uint32_t events = 0;
+  for (const test::Stream& event : test::events_of(test::packets_of(scene.stream))) {
+    if (event[1] != static_cast<std::uint8_t>(EventId::kPartInconsistent)) continue;
+    ++events;
+    EXPECT_EQ(event[2], 3) << "the part";
+  }
+  EXPECT_EQ(events, inconsistent);
 }
 
 // In both directions the track goes on without a gap, and stays where it was commanded whatever the range.
 TEST(ComponentParts, ShortRangeAndTrackingAreCommandedBothWays) {
-  VERIFIES("LASSO-MOD-136~3 LASSO-MOD-137~1 LASSO-MOD-173~1");
+  VERIFIES("LASSO-MOD-136~4 LASSO-MOD-137~1 LASSO-MOD-173~2");
   ComponentScene scene(leaving_scene(), image_with_parts(test::two_halves()));
   scene.begin();
   run(scene, 8);
@@ -150,7 +157,7 @@ TEST(ComponentParts, ShortRangeAndTrackingAreCommandedBothWays) {
 }
 
 TEST(ComponentParts, ACommandEndsTheScansOfParts) {
-  VERIFIES("LASSO-MOD-136~3");
+  VERIFIES("LASSO-MOD-136~4");
   ComponentScene scene(leaving_scene(), image_with_parts(test::two_halves()));
   scene.begin();
   run(scene, 8);

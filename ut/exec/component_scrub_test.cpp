@@ -58,7 +58,7 @@ std::size_t& number_of_active(const ImageKeeper& images) {
 
 // The other buffer holds no image that could be flown with, and beyond both is none. Any bit, in the middle of a frame and at its end.
 TEST_F(ComponentScrub, AFlipOfWhichImageIsActiveIsToldAndPosesGoOn) {
-  VERIFIES("LASSO-HLT-014~2");
+  VERIFIES("LASSO-HLT-014~3");
   scene_->begin(first_image());
   scene_->run_frames(5);
   std::size_t& number = number_of_active(component().images());

@@ -26,7 +26,7 @@ MissionParameters search_parameters() {
 }
 
 TEST(ComponentSearch, TheTargetIsFoundWithoutAnyPriorAndTracked) {
-  VERIFIES("LASSO-MOD-123~3 LASSO-MOD-111~1 LASSO-MOD-131~1 LASSO-MOD-137~1");
+  VERIFIES("LASSO-MOD-123~4 LASSO-MOD-111~1 LASSO-MOD-131~1 LASSO-MOD-137~1");
   ComponentScene scene(search_parameters(), test::uneven_scene());
   scene.begin();
   ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);
@@ -43,7 +43,7 @@ TEST(ComponentSearch, TheTargetIsFoundWithoutAnyPriorAndTracked) {
 }
 
 TEST(ComponentSearch, AMissionsOwnStartThatCannotBeRightGivesPlaceToTheSearch) {
-  VERIFIES("LASSO-MOD-133~3 LASSO-MOD-134~2");
+  VERIFIES("LASSO-MOD-133~4 LASSO-MOD-134~3");
   MissionParameters p = search_parameters();
   p.initial_present = 1;
   p.initial_z_m = 5000;
@@ -61,7 +61,7 @@ TEST(ComponentSearch, AMissionsOwnStartThatCannotBeRightGivesPlaceToTheSearch) {
 
 // Without recovery, too: a hand-over that no scan confirms leaves the search, whose turn comes in bearing.
 TEST(ComponentSearch, AWrongHandOverGivesPlaceToTheSearch) {
-  VERIFIES("LASSO-MOD-133~3 LASSO-MOD-137~1");
+  VERIFIES("LASSO-MOD-133~4 LASSO-MOD-137~1");
   MissionParameters p = search_parameters();
   p.recover = 0;
   p.start_frames = 2;
@@ -87,7 +87,7 @@ TEST(ComponentSearch, AWrongHandOverGivesPlaceToTheSearch) {
 
 // A start end for end that a scan would confirm: a search of this scan says otherwise, and the search's turn comes.
 TEST(ComponentSearch, AStartThatASearchOfItsScanContradictsIsNeverTracked) {
-  VERIFIES("LASSO-MOD-184~5 LASSO-MOD-133~3 LASSO-MOD-137~1");
+  VERIFIES("LASSO-MOD-184~5 LASSO-MOD-133~4 LASSO-MOD-137~1");
   MissionParameters p = search_parameters();
   p.start_check = 1;
   p.start_inlier_share_min = p.inlier_share_min = p.agreement_min = 0;
@@ -125,7 +125,7 @@ StartRefusal begin_with_right_start(ComponentScene& scene) {
 }
 
 TEST(ComponentSearch, ARightStartIsToldAsUncheckedAndThenTracked) {
-  VERIFIES("LASSO-MOD-184~5 LASSO-MOD-188~1");
+  VERIFIES("LASSO-MOD-184~5 LASSO-MOD-188~2");
   ComponentScene scene(checked_parameters(), test::uneven_scene());
   ASSERT_EQ(begin_with_right_start(scene), StartRefusal::kNone);
   Story story;
@@ -144,7 +144,7 @@ TEST(ComponentSearch, ARightStartIsToldAsUncheckedAndThenTracked) {
 
 // The scan that a check searches is of the old clock's time.
 TEST(ComponentSearch, AStartThatIsCheckedIsConfirmedAnewWhenTheClockJumps) {
-  VERIFIES("LASSO-MOD-188~1 LASSO-HLT-006~1");
+  VERIFIES("LASSO-MOD-188~2 LASSO-HLT-006~2");
   constexpr DurationUs kJump_us = 60'000'000;
   ComponentScene scene(checked_parameters(), test::uneven_scene());
   ASSERT_EQ(begin_with_right_start(scene), StartRefusal::kNone);
@@ -163,7 +163,7 @@ TEST(ComponentSearch, AStartThatIsCheckedIsConfirmedAnewWhenTheClockJumps) {
 
 // A mode that awaits a start and scans nothing is left for the bearing, if that is what the next source needs; otherwise it stays.
 TEST(ComponentSearch, AStartThatIsRefusedInLostGivesPlaceToTheSearch) {
-  VERIFIES("LASSO-MOD-133~3");
+  VERIFIES("LASSO-MOD-133~4");
   for (const bool ordered : {true, false}) {
     MissionParameters p = search_parameters();
     p.recover = 0;
@@ -190,7 +190,7 @@ TEST(ComponentSearch, AStartThatIsRefusedInLostGivesPlaceToTheSearch) {
 }
 
 TEST(ComponentSearch, ALostTargetIsLookedForNearItsPredictionThenSearched) {
-  VERIFIES("LASSO-MOD-142~1");
+  VERIFIES("LASSO-MOD-142~2");
   MissionParameters p = search_parameters();
   p.coast_frames = 2;
   p.reacquire_frames = 2;
@@ -216,7 +216,7 @@ TEST(ComponentSearch, ALostTargetIsLookedForNearItsPredictionThenSearched) {
 
 // A box looks alike from several sides: never a guess, and the candidates are reported.
 TEST(ComponentSearch, AnAmbiguousTargetIsNeverTracked) {
-  VERIFIES("LASSO-MOD-124~1 LASSO-MOD-120~1 LASSO-MOD-136~3");
+  VERIFIES("LASSO-MOD-124~1 LASSO-MOD-120~2 LASSO-MOD-136~4");
   MissionParameters p = story_parameters();
   p.points = 400;
   p.search_slice = 1e7;
@@ -239,7 +239,7 @@ TEST(ComponentSearch, AnAmbiguousTargetIsNeverTracked) {
 }
 
 TEST(ComponentSearch, ASearchThatIsAlwaysLateEnds) {
-  VERIFIES("LASSO-MOD-136~3 LASSO-EXE-003~1");
+  VERIFIES("LASSO-MOD-136~4 LASSO-EXE-003~1");
   MissionParameters p = story_parameters();
   p.search_frames = 3;
   ComponentScene scene(p);
@@ -253,7 +253,7 @@ TEST(ComponentSearch, ASearchThatIsAlwaysLateEnds) {
 }
 
 TEST(ComponentSearch, ASearchTrustsNoOldBearing) {
-  VERIFIES("LASSO-MOD-136~3");
+  VERIFIES("LASSO-MOD-136~4");
   MissionParameters p = story_parameters();
   p.bearing_memory_s = 1;
   ComponentScene scene(p);
@@ -270,7 +270,7 @@ TEST(ComponentSearch, ASearchTrustsNoOldBearing) {
 }
 
 TEST(ComponentSearch, APoseThatWasFoundTooLateIsRefusedByItsName) {
-  VERIFIES("LASSO-MOD-134~2");
+  VERIFIES("LASSO-MOD-134~3");
   MissionParameters p = search_parameters();
   p.start_age_max_s = 0;
   p.search_slice = 100000;                                                       // several frames' work

@@ -70,7 +70,7 @@ class ComponentStore : public ::testing::Test {
 };
 
 TEST_F(ComponentStore, WhatAnOperatorDoesNotWantToBeToldIsKeptAllTheSame) {
-  VERIFIES("LASSO-HLT-005~1");
+  VERIFIES("LASSO-HLT-005~2");
   const auto event = static_cast<std::uint16_t>(EventId::kParameterChanged);
   ASSERT_EQ(send(test::disable_event(event, next())), ServiceRefusal::kNone);
   ASSERT_EQ(send(test::set_parameter(coast_, 33, next())), ServiceRefusal::kNone);
@@ -115,7 +115,7 @@ TEST_F(ComponentStore, WhatCannotBeSavedOrDoesNotHoldIsTold) {
 }
 
 TEST_F(ComponentStore, WithoutAStoreNothingIsKept) {
-  VERIFIES("LASSO-IMG-019~1 LASSO-HLT-005~1");
+  VERIFIES("LASSO-IMG-019~1 LASSO-HLT-005~2");
   scene_.component = std::make_unique<Component>(scene_.sensor);
   scene_.begin(image_);
   EXPECT_EQ(send(test::plain_packet(CommandKind::kSaveParameters, next())), ServiceRefusal::kNoStore);
@@ -124,7 +124,7 @@ TEST_F(ComponentStore, WithoutAStoreNothingIsKept) {
 }
 
 TEST_F(ComponentStore, TheLogAndTheCauseSurviveARestart) {
-  VERIFIES("LASSO-HLT-005~1 LASSO-IMG-015~1");
+  VERIFIES("LASSO-HLT-005~2 LASSO-IMG-015~1");
   EXPECT_EQ(report_stored(0, 1), ServiceRefusal::kNothingStored);
   run(2);
   ASSERT_EQ(send(test::set_parameter(coast_, 33, next())), ServiceRefusal::kNone);

@@ -1,5 +1,6 @@
 #include "fsw/exec/component.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "fsw/sense/planner.hpp"
@@ -36,7 +37,7 @@ PoseTelemetry report_of(ComponentScene& scene, std::uint32_t scan_id) {
 }
 
 TEST(Component, ReportsEachScanTwoBoundariesLater) {
-  VERIFIES("LASSO-EXE-002~1 LASSO-SYS-023~1 LASSO-SYS-027~1");
+  VERIFIES("LASSO-EXE-002~1 LASSO-SYS-023~1 LASSO-SYS-027~1 LASSO-MOD-141~2");
   ComponentScene scene(started_parameters());
   scene.begin();
   for (std::uint32_t frame = 0; frame < 40; ++frame) {
@@ -62,11 +63,14 @@ TEST(Component, PublishesWithinFourTenthsOfASecond) {
 }
 
 TEST(Component, TracksTheTarget) {
-  VERIFIES("LASSO-EXE-005~1 LASSO-SYS-001~1");
+  VERIFIES("LASSO-EXE-005~1 LASSO-SYS-001~2 LASSO-MOD-131~1");
   ComponentScene scene(started_parameters());
   scene.begin();
+  const test::BoxScene truth = test::default_scene();
+  PoseTelemetry last;
   for (std::uint32_t frame = 0; frame < 40; ++frame) {
     for (const Report& report : scene.run_frame()) {
+      last = report.pose;
       ASSERT_EQ(report.pose.valid, 1) << report.pose.scan_id << " reason " << int{report.pose.reason};
       EXPECT_EQ(report.pose.mode, kTracking);
       EXPECT_LT(scene.error(report.pose).head<3>().norm(), 3e-3);
@@ -74,6 +78,15 @@ TEST(Component, TracksTheTarget) {
       EXPECT_EQ(report.pose.plan_points, 1024);
     }
   }
+  EXPECT_EQ(last.start_source, static_cast<std::uint8_t>(InitialPoseSource::kApriori)) << "the mission's own pose";
+  // In metres and radians, and per second: the filtered pose and its rates.
+  PoseTelemetry filtered = last;
+  std::copy_n(last.filter_q_sensor_target, 4, filtered.q_sensor_target);
+  std::copy_n(last.filter_p_sensor_target_m, 3, filtered.p_sensor_target_m);
+  EXPECT_LT(scene.error(filtered).head<3>().norm(), 3e-3);
+  EXPECT_LT(scene.error(filtered).tail<3>().norm(), 1e-3);
+  EXPECT_LT((Vec3(last.filter_omega_radps) - truth.rates.omega_radps).norm(), 5e-3);
+  EXPECT_LT((Vec3(last.filter_v_mps) - truth.rates.v_mps).norm(), 2e-3);
 }
 
 TEST(Component, PlansFromThePredictionOfTheLastPublishedScan) {
@@ -102,7 +115,7 @@ TEST(Component, PlansFromThePredictionOfTheLastPublishedScan) {
 }
 
 TEST(Component, LostScansCoastAndAreCounted) {
-  VERIFIES("LASSO-EXE-005~1 LASSO-MOD-005~1 LASSO-HLT-011~1");
+  VERIFIES("LASSO-EXE-005~1 LASSO-MOD-005~2 LASSO-HLT-011~1");
   ComponentScene scene(started_parameters());
   scene.sensor.lost = {10};
   scene.sensor.refused = {11};
@@ -141,17 +154,31 @@ TEST(Component, LateEstimateIsDroppedWholeAndTheTrackGoesOn) {
   EXPECT_EQ(next.at(0).pose.scan_id, 11u);
   EXPECT_EQ(next.at(0).pose.valid, 1);
   EXPECT_LT(scene.error(next.at(0).pose).norm(), 5e-3);
+  EXPECT_EQ(next.at(0).pose.slot_slips, 0u);
+  scene.component->run_slot(scene.component->next_slot_us() + 30'000);  // later than its own 10 ms
+  scene.component->run_estimation();
+  scene.run_frame();
+  EXPECT_EQ(scene.run_frame().at(0).pose.slot_slips, 1u);
 }
 
 TEST(Component, LostTrackStopsScanningAndSaysSo) {
-  VERIFIES("LASSO-MOD-007~1");
+  VERIFIES("LASSO-MOD-007~2");
   MissionParameters p = started_parameters();
   p.coast_frames = 2;
   ComponentScene scene(p);
   scene.sensor.lost = {5, 6, 7};
   scene.begin();
-  EXPECT_EQ(report_of(scene, 7).mode, kLost);
+  const PoseTelemetry last = report_of(scene, 7);
+  EXPECT_EQ(last.mode, kLost);
   const int starts = scene.sensor.starts;
+  for (std::uint32_t frame = 8; frame < 12; ++frame) {
+    const auto told = scene.run_frame();
+    ASSERT_EQ(told.size(), 1u) << "each frame says so";
+    EXPECT_EQ(told[0].pose.mode, kLost);
+    EXPECT_EQ(told[0].pose.valid, 0);
+    EXPECT_EQ(told[0].pose.t_measurement_us, last.t_measurement_us);
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(told[0].pose.p_sensor_target_m[i], last.p_sensor_target_m[i]) << "the last prediction";
+  }
   const PoseTelemetry after = report_of(scene, 12);
   EXPECT_EQ(scene.sensor.starts, starts);
   EXPECT_EQ(after.mode, kLost);
@@ -185,7 +212,7 @@ TEST(Component, StartsAgainFromAGivenPose) {
 }
 
 TEST(Component, RefusesAStartThatMeansNothing) {
-  VERIFIES("LASSO-MOD-008~1 LASSO-SYS-011~1");
+  VERIFIES("LASSO-MOD-008~2 LASSO-SYS-011~2");
   ComponentScene scene(started_parameters());
   EXPECT_EQ(scene.component->start_tracking(Pose{}, Twist{}, 0), Status::kBadOrder);
   EXPECT_EQ(scene.component->stop_tracking(), Status::kBadOrder);
@@ -211,7 +238,7 @@ TEST(Component, NeedsAnImageThatFitsItsFrames) {
 }
 
 TEST(Component, ARefusedImageLeavesNothingToBeginWith) {
-  VERIFIES("LASSO-EXE-008~2");
+  VERIFIES("LASSO-EXE-008~2 LASSO-SYS-011~2");
   ComponentScene scene(started_parameters());
   ASSERT_EQ(scene.load().status, Status::kOk);
   test::TestImage damaged = test::make_box_image(started_parameters());
@@ -252,7 +279,7 @@ TEST(Component, AnEstimateIsPendingFromTheHandOverUntilItHasRun) {
 }
 
 TEST(Component, SequenceCountWrapsThroughTheWholeChain) {
-  VERIFIES("LASSO-LNK-001~1");
+  VERIFIES("LASSO-LNK-001~1 LASSO-HLT-007~2");
   MissionParameters p = started_parameters();
   p.start_frames = 0;  // lost from the second report on: frames without a scan are short
   ComponentScene scene(p);

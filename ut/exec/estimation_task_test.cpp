@@ -87,7 +87,7 @@ TEST_F(EstimationTaskTest, SearchesInTheModeSearching) {
 }
 
 TEST_F(EstimationTaskTest, AScanOfAPartConfirmsNoStart) {
-  VERIFIES("LASSO-MOD-164~1");
+  VERIFIES("LASSO-MOD-164~2");
   const auto scan = std::make_unique<RangeImage>();
   job_.scan = scan.get();
   job_.part = 1;

@@ -42,7 +42,7 @@ TEST(Executive, RefusesSlotsShorterThanItsClock) {
 }
 
 TEST(Executive, ItsPeriodSurvivesAFlip) {
-  VERIFIES("LASSO-HLT-014~2");
+  VERIFIES("LASSO-HLT-014~3");
   constexpr std::uint32_t kCopies[] = {200003, ~200003u, 200003};
   Executive executive;
   ASSERT_EQ(executive.begin(1000, 200003), Status::kOk);
@@ -99,7 +99,7 @@ TEST(Executive, CountsASlipWhenASlotBeginsLaterThanItsLength) {
 }
 
 TEST(Executive, AClockFarFromTheNextSlotHasJumped) {
-  VERIFIES("LASSO-HLT-006~1");
+  VERIFIES("LASSO-HLT-006~2");
   Executive executive;
   ASSERT_EQ(executive.begin(60'000'000, 200'000), Status::kOk);
   EXPECT_FALSE(executive.jumped(0)) << "the first slot may be far ahead";

@@ -49,7 +49,7 @@ TEST(FaultSets, AreAddedToAndTakenFrom) {
 
 // Each row alone: confirmed in the frame that its count names, answered once, cleared in the frame that its count names.
 TEST(FaultMonitor, ExecutesEachRowAsWritten) {
-  VERIFIES("LASSO-HLT-001~1 LASSO-SYS-025~1");
+  VERIFIES("LASSO-HLT-001~1 LASSO-SYS-025~2");
   for (const FaultRow& row : fault_table()) {
     FaultMonitor monitor;
     for (int i = 1; i < row.confirm_frames; ++i) EXPECT_TRUE(monitor.step(only(row.fault)).confirmed.empty());
@@ -71,7 +71,7 @@ TEST(FaultMonitor, ExecutesEachRowAsWritten) {
 
 // Any bit, after any number of the frames that confirm the fault: at most those frames are counted once more.
 TEST(FaultMonitor, AFlippedBitOfACountPutsAFaultOffByItsConfirmationAtMost) {
-  VERIFIES("LASSO-HLT-014~2");
+  VERIFIES("LASSO-HLT-014~3");
   for (const FaultRow& row : fault_table()) {
     for (int before = 0; before < row.confirm_frames; ++before) {
       for (unsigned bit = 0; bit < 8; ++bit) {

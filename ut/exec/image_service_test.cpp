@@ -276,15 +276,16 @@ TEST_F(ImageServiceTest, AnImageThatIsNotReadyAtTheBoundaryStaysOut) {
 }
 
 TEST_F(ImageServiceTest, ARefusedImageIsTold) {
-  VERIFIES("LASSO-IMG-013~1");
+  VERIFIES("LASSO-IMG-013~1 LASSO-SYS-011~2");
   scene_->begin(first_image());
   TestImage spoiled = better_image();
   spoiled.data()[5000] ^= 1;
   ASSERT_EQ(component().open_image(static_cast<std::uint32_t>(spoiled.size), crc_of(spoiled)), ImageRefusal::kNone);
   ASSERT_EQ(component().put_image(0, ConstBytes(spoiled.data(), spoiled.size)), ImageRefusal::kNone);
   ASSERT_EQ(component().check_image(), ImageRefusal::kNone);
-  scene_->run_frames(40);
+  EXPECT_TRUE(all_valid(scene_->run_frames(40))) << "the track goes on";
   EXPECT_EQ(scene_->last(EventId::kImageRefused).items[0], static_cast<std::uint8_t>(Status::kBadCrc));
+  EXPECT_EQ(component().mission().image_crc, crc_of(first_image()));
 }
 
 // The image before decays while the new one is on trial: there is nothing to go back to, and yet a way on.

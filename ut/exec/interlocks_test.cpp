@@ -14,7 +14,7 @@ using test::told;
 std::uint8_t number(ServiceRefusal refusal) { return static_cast<std::uint8_t>(refusal); }
 
 TEST(Interlocks, TheLaserIsInhibitedUntilItIsArmedAndEnabled) {
-  VERIFIES("LASSO-LNK-017~1 LASSO-LCS-006~1");
+  VERIFIES("LASSO-LNK-017~1 LASSO-LCS-006~1 LASSO-HLT-009~2");
   Link link;
   EXPECT_FALSE(link.scene.sensor.laser_permitted) << "from the start";
   link.send(test::plain_packet(CommandKind::kEnableLaser, 1));

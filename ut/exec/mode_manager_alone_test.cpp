@@ -103,7 +103,7 @@ class ModeManagerAlone : public ::testing::Test {
 const std::vector<std::pair<InitialPoseSource, StartRefusal>> kOneTooOld{{InitialPoseSource::kUplink, StartRefusal::kTooOld}};
 
 TEST_F(ModeManagerAlone, AStartThatAJumpOvertakesIsRefused) {
-  VERIFIES("LASSO-MOD-134~2 LASSO-HLT-006~1");
+  VERIFIES("LASSO-MOD-134~3 LASSO-HLT-006~2");
   ASSERT_EQ(offer(InitialPoseSource::kUplink), StartRefusal::kNone);
   modes.follow_jump(-20'000'000);
   modes.apply_request();
@@ -112,7 +112,7 @@ TEST_F(ModeManagerAlone, AStartThatAJumpOvertakesIsRefused) {
 }
 
 TEST_F(ModeManagerAlone, AStartOfTheTargetBeforeIsRefused) {
-  VERIFIES("LASSO-MOD-134~2 LASSO-IMG-013~1");
+  VERIFIES("LASSO-MOD-134~3 LASSO-IMG-013~1");
   ASSERT_EQ(offer(InitialPoseSource::kUplink), StartRefusal::kNone);
   modes.take_over_track(false, true);
   modes.apply_request();
@@ -121,7 +121,7 @@ TEST_F(ModeManagerAlone, AStartOfTheTargetBeforeIsRefused) {
 }
 
 TEST_F(ModeManagerAlone, ASearchBeginsAnewWhenTheClockJumps) {
-  VERIFIES("LASSO-HLT-006~1");
+  VERIFIES("LASSO-HLT-006~2");
   for (const M mode : {M::kBearing, M::kSearching}) {
     ASSERT_EQ(modes.command_mode(mode), ModeRefusal::kNone);
     modes.apply_request();
@@ -136,7 +136,7 @@ TEST_F(ModeManagerAlone, ASearchBeginsAnewWhenTheClockJumps) {
 const std::vector<std::pair<M, M>> kBack{{M::kVerifying, M::kStarting}};
 
 TEST_F(ModeManagerAlone, ACheckedStartIsConfirmedAnewWhenTheClockJumps) {
-  VERIFIES("LASSO-MOD-188~1 LASSO-HLT-006~1");
+  VERIFIES("LASSO-MOD-188~2 LASSO-HLT-006~2");
   verify();
   for (int jump = 0; jump < 2; ++jump) modes.follow_jump(60'000'000);
   EXPECT_EQ(modes.mode(), M::kStarting);
@@ -147,7 +147,7 @@ TEST_F(ModeManagerAlone, ACheckedStartIsConfirmedAnewWhenTheClockJumps) {
 }
 
 TEST_F(ModeManagerAlone, ACheckedStartIsConfirmedAnewWithAnotherImageOfItsTarget) {
-  VERIFIES("LASSO-MOD-188~1 LASSO-IMG-013~1");
+  VERIFIES("LASSO-MOD-188~2 LASSO-IMG-013~1");
   verify();
   modes.take_over_track(true, true);
   EXPECT_EQ(modes.mode(), M::kStarting);
@@ -160,7 +160,7 @@ TEST_F(ModeManagerAlone, ACheckedStartIsConfirmedAnewWithAnotherImageOfItsTarget
 }
 
 TEST_F(ModeManagerAlone, ACheckedStartIsRefusedWhereItIsGivenUpAlone) {
-  VERIFIES("LASSO-MOD-188~1 LASSO-MOD-134~2");
+  VERIFIES("LASSO-MOD-188~2 LASSO-MOD-134~3");
   verify();
   follow(E::kPoseInvalid, M::kVerifying);
   follow(E::kConfirmAnew, M::kStarting);

@@ -37,7 +37,7 @@ StartOffer wrong_offer(const ComponentScene& scene, TimeUs t_us) {
 }
 
 TEST(ModeManager, ABearingIsSoughtOverTheWholeField) {
-  VERIFIES("LASSO-MOD-101~3 LASSO-MOD-136~3 LASSO-MOD-137~1");
+  VERIFIES("LASSO-MOD-101~3 LASSO-MOD-136~4 LASSO-MOD-137~1");
   ComponentScene scene(story_parameters());
   scene.begin();
   ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);
@@ -79,7 +79,7 @@ TEST(ModeManager, NavigationIsTakenWhereAStartIsAwaited) {
 }
 
 TEST(ModeManager, AWrongHandOverIsRefusedAndTheNextWayIsTried) {
-  VERIFIES("LASSO-MOD-131~1 LASSO-MOD-132~1 LASSO-MOD-133~3 LASSO-MOD-137~1");
+  VERIFIES("LASSO-MOD-131~1 LASSO-MOD-132~1 LASSO-MOD-133~4 LASSO-MOD-137~1");
   for (const bool recover : {true, false}) {
     MissionParameters p = story_parameters();
     p.recover = recover ? 1 : 0;
@@ -174,7 +174,7 @@ TEST(ModeManager, ALongEclipseEndsInABearingAndANewStart) {
 }
 
 TEST(ModeManager, CommandsThatCannotBeAreRefusedByTheirName) {
-  VERIFIES("LASSO-MOD-136~3 LASSO-MOD-173~1");
+  VERIFIES("LASSO-MOD-136~4 LASSO-MOD-173~2");
   ComponentScene scene(story_parameters());
   EXPECT_EQ(scene.component->command_mode(M::kStandby), ModeRefusal::kNotBegun);
   scene.begin();
@@ -197,7 +197,7 @@ TEST(ModeManager, CommandsThatCannotBeAreRefusedByTheirName) {
 }
 
 TEST(ModeManager, AnyModeCanBeCommanded) {
-  VERIFIES("LASSO-MOD-136~3 LASSO-MOD-137~1 LASSO-MOD-173~1");
+  VERIFIES("LASSO-MOD-136~4 LASSO-MOD-137~1 LASSO-MOD-173~2 LASSO-SYS-014~2");
   ComponentScene scene(story_parameters());
   scene.begin();
   ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kUplink, offer_at(scene, 0)), StartRefusal::kNone);
@@ -223,7 +223,7 @@ TEST(ModeManager, AnyModeCanBeCommanded) {
 }
 
 TEST(ModeManager, AHeldModeStaysUntilItIsReleased) {
-  VERIFIES("LASSO-MOD-136~3 LASSO-MOD-173~1");
+  VERIFIES("LASSO-MOD-136~4 LASSO-MOD-173~2");
   ComponentScene scene(story_parameters());
   scene.begin();
   ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);
@@ -249,7 +249,7 @@ TEST(ModeManager, AHeldModeStaysUntilItIsReleased) {
 }
 
 TEST(ModeManager, WrongOffersAreRefusedCountedAndTold) {
-  VERIFIES("LASSO-MOD-134~2 LASSO-MOD-008~1");
+  VERIFIES("LASSO-MOD-134~3 LASSO-MOD-008~2 LASSO-SYS-011~2");
   ComponentScene scene(story_parameters());
   const StartOffer good = rough_offer(story_parameters(), test::default_scene().at_zero, {}, 0);
   EXPECT_EQ(scene.component->offer_start(InitialPoseSource::kUplink, good), StartRefusal::kNotBegun);
@@ -274,7 +274,7 @@ TEST(ModeManager, WrongOffersAreRefusedCountedAndTold) {
 }
 
 TEST(ModeManager, WhatHasGrownOldIsRefusedWhenItsTurnComes) {
-  VERIFIES("LASSO-MOD-133~3 LASSO-MOD-134~2");
+  VERIFIES("LASSO-MOD-133~4 LASSO-MOD-134~3");
   MissionParameters p = story_parameters();
   p.start_age_max_s = 1;
   ComponentScene scene(p);
@@ -292,7 +292,7 @@ TEST(ModeManager, WhatHasGrownOldIsRefusedWhenItsTurnComes) {
 }
 
 TEST(ModeManager, AMissionsOwnStartIsRefusedByItsReasonAndTheNextWayIsTried) {
-  VERIFIES("LASSO-MOD-133~3 LASSO-MOD-134~2 LASSO-MOD-137~1");
+  VERIFIES("LASSO-MOD-133~4 LASSO-MOD-134~3 LASSO-MOD-137~1 LASSO-MOD-008~2");
   MissionParameters behind = test::box_parameters(test::default_scene());
   behind.initial_z_m = -2.5;
   MissionParameters out_of_reach = test::box_parameters(test::default_scene());
@@ -336,7 +336,7 @@ TEST(ModeManager, ACommandTakesThePlaceOfTheOneBefore) {
 
 // A command in each frame leaves no scan to be reported; the changes are reported all the same, in order, by packets of their own.
 TEST(ModeManager, NoChangeOfTheModeGoesUntold) {
-  VERIFIES("LASSO-MOD-137~1");
+  VERIFIES("LASSO-MOD-137~1 LASSO-MOD-001~2 LASSO-SYS-014~2");
   ComponentScene scene(story_parameters());
   scene.begin();
   Story story;

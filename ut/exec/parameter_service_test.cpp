@@ -72,7 +72,7 @@ TEST(ParameterService, AChangeActsAtTheNextBoundary) {
 }
 
 TEST(ParameterService, WhatIsRefusedSaysWhyAndChangesNothing) {
-  VERIFIES("LASSO-IMG-018~1 LASSO-LNK-013~1");
+  VERIFIES("LASSO-IMG-018~1 LASSO-LNK-013~1 LASSO-SYS-011~2");
   Link link;
   const MissionParameters before = link.component().mission().parameters;
   const struct {

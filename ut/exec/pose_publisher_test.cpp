@@ -21,7 +21,7 @@ std::size_t poses(const std::vector<Packet>& packets) {
 
 // Of each pair in the image, and of the same scan as the packet pose; none without.
 TEST(PosePublisher, PosesBetweenNamedFramesAreSentWhereTheImageNamesThem) {
-  VERIFIES("LASSO-LNK-050~1 LASSO-LNK-051~1");
+  VERIFIES("LASSO-LNK-050~1 LASSO-LNK-051~1 LASSO-SYS-024~1");
   const test::BoxScene truth = test::default_scene();
   const NamedFrame docking = test::grapple_in_port();
   const test::BoxTables tables = test::make_box_tables(truth.boxes());
@@ -80,7 +80,7 @@ TEST(PosePublisher, PosesBetweenNamedFramesAreSentWhereTheImageNamesThem) {
 
 // The estimate was done when the clock jumped: its pose, of the old clock's time, is none of the frame's.
 TEST(PosePublisher, AnEstimateOfBeforeAJumpIsNotReported) {
-  VERIFIES("LASSO-LNK-050~1 LASSO-HLT-006~1");
+  VERIFIES("LASSO-LNK-050~1 LASSO-HLT-006~2");
   const test::BoxScene truth = test::default_scene();
   test::ComponentScene scene(
       truth, test::make_image(test::box_parameters(truth), test::with_frames(test::make_box_tables(truth.boxes()), {NamedFrame{}})));
@@ -158,7 +158,7 @@ TEST(PosePublisher, APoseIsReportedInStandbyWhenAskedFor) {
 }
 
 TEST(PosePublisher, PosesThatAreNotSentCountAndTheirChangesAreEvents) {
-  VERIFIES("LASSO-LNK-014~1 LASSO-MOD-172~1");
+  VERIFIES("LASSO-LNK-014~1 LASSO-MOD-172~2");
   Link link;
   link.send(test::of_structure(CommandKind::kDisableStructure, kPoseStructureId, 0));
   std::size_t changes = 0;

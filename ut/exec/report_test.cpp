@@ -199,7 +199,7 @@ TEST(Report, CarriesTheBearingAndTheTracksStart) {
 }
 
 TEST(Report, CarriesTheSearchAndItsFirstCandidates) {
-  VERIFIES("LASSO-MOD-124~1 LASSO-EXE-006~1 LASSO-MOD-120~1");
+  VERIFIES("LASSO-MOD-124~1 LASSO-EXE-006~1 LASSO-MOD-120~2");
   TrackStep step;
   SearchResult& search = step.search;
   search.outcome = SearchOutcome::kAmbiguous;

@@ -184,7 +184,7 @@ class RepeatedScan : public ::testing::Test {
 };
 
 TEST_F(RepeatedScan, IsToldByItsSamplesWhereItsPlanIsAnother) {
-  VERIFIES("LASSO-MOD-181~2");
+  VERIFIES("LASSO-MOD-181~3");
   EXPECT_TRUE(repeated(turned(0.38), scan_));
   RangeImage later = scan_;
   later.scan_id = 7;
@@ -195,7 +195,7 @@ TEST_F(RepeatedScan, IsToldByItsSamplesWhereItsPlanIsAnother) {
 }
 
 TEST_F(RepeatedScan, IsTheSameInEachBit) {
-  VERIFIES("LASSO-MOD-181~2");
+  VERIFIES("LASSO-MOD-181~3");
   for (const std::size_t changed : {std::size_t{0}, std::size_t{117}, std::size_t{199}}) {
     RangeImage other = scan_;
     other.samples[changed].range_m = std::nextafter(other.samples[changed].range_m, 9.0F);
@@ -208,7 +208,7 @@ TEST_F(RepeatedScan, IsTheSameInEachBit) {
 
 // Each way alone in which the next plan's rays can lie elsewhere.
 TEST_F(RepeatedScan, APlanIsAnotherWhereItsRaysAre) {
-  VERIFIES("LASSO-MOD-181~2");
+  VERIFIES("LASSO-MOD-181~3");
   for (const double offset : {0.01, -0.01}) {
     ScanPlan next = plan_;
     next.center_x += offset;
@@ -230,7 +230,7 @@ TEST_F(RepeatedScan, APlanIsAnotherWhereItsRaysAre) {
 }
 
 TEST_F(RepeatedScan, FewRaysDoNotTell) {
-  VERIFIES("LASSO-MOD-181~2");
+  VERIFIES("LASSO-MOD-181~3");
   for (std::size_t i = kRaysToTell; i < scan_.samples.size(); ++i) scan_.samples[i] = RangeSample{};  // invalid
   EXPECT_TRUE(repeated(turned(0.38), scan_));
   scan_.samples[0] = RangeSample{};

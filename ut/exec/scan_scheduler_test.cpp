@@ -246,7 +246,7 @@ TEST_F(ScanSchedulerTest, ASearchKeepsItsSensor) {
 
 // A part that was chosen for the scans of one sensor is not scanned by another one: its first scans are of the whole.
 TEST_F(ScanSchedulerTest, WhatWasPlannedForAnotherSensorCountsNoMore) {
-  VERIFIES("LASSO-SNS-046~1 LASSO-MOD-164~1");
+  VERIFIES("LASSO-SNS-046~1 LASSO-MOD-164~2");
   const test::BoxScene scene = scene_at(2.5, 0.1);
   MissionParameters p = parameters(scene);
   p.short_range_enter_m = 5;

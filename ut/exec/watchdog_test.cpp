@@ -12,7 +12,7 @@ void run_slots(CheckIn& check_in, std::uint32_t missing) {
 }
 
 TEST(CheckIn, AsksForEverySlot) {
-  VERIFIES("LASSO-HLT-003~1");
+  VERIFIES("LASSO-HLT-003~2");
   for (std::uint32_t missing = 0; missing <= kSlotsPerFrame; ++missing) {
     CheckIn check_in;
     EXPECT_TRUE(check_in.boundary(true)) << "nothing has run before the first one";
@@ -24,7 +24,7 @@ TEST(CheckIn, AsksForEverySlot) {
 }
 
 TEST(CheckIn, AsksForTheEstimationThread) {
-  VERIFIES("LASSO-HLT-003~1");
+  VERIFIES("LASSO-HLT-003~2");
   CheckIn check_in;
   EXPECT_TRUE(check_in.boundary(true));
   for (std::uint32_t busy = 1; busy < 2 * CheckIn::kEstimationFrames; ++busy) {

@@ -61,7 +61,7 @@ std::uint32_t* copies_of_time(Arming& arming, std::uint32_t left) {
 
 // Any bit, in any frame: the arm ends when its frames are over, as without the flip.
 TEST(Arming, AFlippedBitOfItsTimeMakesItNoLonger) {
-  VERIFIES("LASSO-HLT-014~2");
+  VERIFIES("LASSO-HLT-014~3");
   for (std::uint32_t bit = 0; bit < 96; ++bit) {
     for (std::uint32_t before = 0; before < kArmFrames; ++before) {
       Arming arming;
@@ -78,7 +78,7 @@ TEST(Arming, AFlippedBitOfItsTimeMakesItNoLonger) {
 
 // A command that was armed once, and whose time is over, is not armed again by a flip; nor by a second one, after a boundary.
 TEST(Arming, AFlippedBitArmsNothing) {
-  VERIFIES("LASSO-HLT-014~2");
+  VERIFIES("LASSO-HLT-014~3");
   for (std::uint32_t bit = 0; bit < 96; ++bit) {
     Arming arming;
     arming.arm(kLaser);
@@ -95,7 +95,7 @@ TEST(Arming, AFlippedBitArmsNothing) {
 }
 
 TEST(Arming, ATimeThatNoTwoCopiesSayIsOver) {
-  VERIFIES("LASSO-HLT-014~2");
+  VERIFIES("LASSO-HLT-014~3");
   Arming arming;
   arming.arm(kLaser);
   std::uint32_t* const copies = copies_of_time(arming, kArmFrames);

@@ -32,7 +32,7 @@ TEST(CommandReceiver, FindsAcceptsAndCounts) {
 }
 
 TEST(CommandReceiver, EveryTruncationAndEveryBitErrorIsRefusedAndCounted) {
-  VERIFIES("LASSO-LNK-019~1");
+  VERIFIES("LASSO-LNK-019~1 LASSO-SYS-011~2");
   const Stream commands[] = {test::ping(5), test::set_mode(5, 5), test::set_hold(1, 5), test::offer_start(StartCommand{}, 5)};
   for (const Stream& good : commands) {
     CommandReceiver receiver;

@@ -154,7 +154,7 @@ int told_in(unsigned bit, int at, bool goes_on) {
 
 // A window of a length that no row has would keep events back for hours, and one that a flip has ended would never tell what it suppressed.
 TEST(EventLog, AFlippedBitOfAWindowKeepsNothingBackForMoreThanAnother) {
-  VERIFIES("LASSO-HLT-014~2");
+  VERIFIES("LASSO-HLT-014~3");
   constexpr int kWindow = event_rows::row_of(EventId::kEstimateLate).throttle.frames;
   ASSERT_EQ(told_in(0, -1, false), kWindow) << "without a flip";
   for (unsigned bit = 0; bit < 16; ++bit) {
@@ -167,7 +167,7 @@ TEST(EventLog, AFlippedBitOfAWindowKeepsNothingBackForMoreThanAnother) {
 
 // A bit that opens a window which nobody began, after one that was full: what comes then is told in it, or counted at its end.
 TEST(EventLog, AFlippedBitThatOpensAWindowKeepsNothingBackForMoreThanIt) {
-  VERIFIES("LASSO-HLT-014~2");
+  VERIFIES("LASSO-HLT-014~3");
   constexpr int kWindow = event_rows::row_of(EventId::kEstimateLate).throttle.frames;
   for (unsigned bit = 0; bit < 16; ++bit) {
     EventLog log;

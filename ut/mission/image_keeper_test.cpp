@@ -86,7 +86,7 @@ std::uint32_t* copies_of_selection(ImageKeeper& keeper) {
 }
 
 TEST_F(KeeperTest, WhichImageIsActiveSurvivesAFlip) {
-  VERIFIES("LASSO-HLT-014~2");
+  VERIFIES("LASSO-HLT-014~3");
   ASSERT_EQ(start().status, Status::kOk);
   make_ready(new_image());
   keeper_->swap();
@@ -128,7 +128,7 @@ std::uint8_t* state_of_active(ImageKeeper& keeper) {
 
 // An image whose state is another one would not be scrubbed any more. Each bit of it is put right at the boundary.
 TEST_F(KeeperTest, TheActiveImageStaysReady) {
-  VERIFIES("LASSO-HLT-014~2");
+  VERIFIES("LASSO-HLT-014~3");
   ASSERT_EQ(start().status, Status::kOk);
   std::uint8_t* const state = state_of_active(*keeper_);
   ASSERT_EQ(*state, static_cast<std::uint8_t>(ImageState::kReady));

@@ -110,7 +110,7 @@ TEST_F(LoaderPartsTest, WhoHasNoUseForThePartsLoadsTheWhole) {
 }
 
 TEST_F(LoaderPartsTest, APartWithoutAModelIsRefusedByName) {
-  VERIFIES("LASSO-MOD-182~1");
+  VERIFIES("LASSO-MOD-182~2");
   const LoadFailure failure = load_with_word(kPartImageBytes, 0);
   expect_refused(failure, Status::kMissing, kPartsTable, 1);
   EXPECT_STREQ(failure.what, "a part without a model");

@@ -53,7 +53,7 @@ class LoaderTest : public ::testing::Test {
 };
 
 TEST_F(LoaderTest, LoadsAValidImage) {
-  VERIFIES("LASSO-IMG-001~1");
+  VERIFIES("LASSO-IMG-001~1 LASSO-SYS-024~1");
   ASSERT_EQ(load().status, Status::kOk);
   EXPECT_EQ(mission_->id, 7u);
   EXPECT_EQ(mission_->version, 3u);
@@ -64,7 +64,7 @@ TEST_F(LoaderTest, LoadsAValidImage) {
   EXPECT_EQ(mission_->search.symmetries.size(), 3u);
   EXPECT_NEAR(mission_->search.size_m, 0.6F, 1e-6F);
   EXPECT_NEAR(mission_->search.truncation_m, 0.06F, 1e-6F);
-  EXPECT_TRUE(test::is_path_number(mission_->search.symmetries[1].q[1], 1));
+  EXPECT_TRUE(test::is_path_number(mission_->search.symmetries[1].q[1], 1)) << "about y, by a quaternion with its scalar last";
   EXPECT_NEAR(mission_->center_m[1], -0.01, 1e-7);
   EXPECT_NEAR(mission_->radius_m, Vec3(0.32, 0.21, 0.15).norm(), 1e-6);
   EXPECT_DOUBLE_EQ(mission_->parameters.duration_s, preset_parameters().duration_s);
@@ -74,7 +74,7 @@ TEST_F(LoaderTest, LoadsAValidImage) {
 }
 
 TEST_F(LoaderTest, RefusesEveryTruncation) {
-  VERIFIES("LASSO-IMG-002~1 LASSO-SYS-011~1");
+  VERIFIES("LASSO-IMG-002~1 LASSO-SYS-011~2");
   for (std::size_t size : {std::size_t{0}, std::size_t{3}, std::size_t{63}, std::size_t{287}, image_.size / 2, image_.size - 1}) {
     const LoadFailure result = load_image(Bytes(image_.data(), size), *mission_);
     EXPECT_NE(result.status, Status::kOk) << size;

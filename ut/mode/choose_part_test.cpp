@@ -73,7 +73,7 @@ class ChoosePartTest : public PartsTest {
 };
 
 TEST_F(ChoosePartTest, TakesThePartThatTellsMostOfTheWeakestDirection) {
-  VERIFIES("LASSO-MOD-161~2");
+  VERIFIES("LASSO-MOD-161~3");
   const Mat6 information[2] = {information_of(0), information_of(1)};
   Generator random(3);
   int decided[3] = {};  // by part
@@ -104,7 +104,7 @@ TEST_F(ChoosePartTest, TakesThePartThatTellsMostOfTheWeakestDirection) {
 }
 
 TEST_F(ChoosePartTest, PriorityWeighs) {
-  VERIFIES("LASSO-MOD-161~2");
+  VERIFIES("LASSO-MOD-161~3");
   for (std::size_t part = 0; part < 2; ++part) {
     parts_[part].priority = 100;
     parts_[1 - part].priority = 0.01;
@@ -114,7 +114,7 @@ TEST_F(ChoosePartTest, PriorityWeighs) {
 }
 
 TEST_F(ChoosePartTest, WhatIsInFlightCounts) {
-  VERIFIES("LASSO-MOD-161~2");
+  VERIFIES("LASSO-MOD-161~3");
   // As little is known that one scan of a part shows all, after which the other part tells more.
   believe(1e-6 * Mat6::Identity());
   asked_just_now();
@@ -126,7 +126,7 @@ TEST_F(ChoosePartTest, WhatIsInFlightCounts) {
 }
 
 TEST_F(ChoosePartTest, NobodyWaitsForEver) {
-  VERIFIES("LASSO-MOD-161~2");
+  VERIFIES("LASSO-MOD-161~3");
   parts_[0].priority = 1000;
   parts_[1].priority = 0.001;
   asked_just_now();
@@ -146,7 +146,7 @@ TEST_F(ChoosePartTest, NobodyWaitsForEver) {
 }
 
 TEST_F(ChoosePartTest, WhoWaitedLongestComesFirst) {
-  VERIFIES("LASSO-MOD-161~2");
+  VERIFIES("LASSO-MOD-161~3");
   state_.of[0].last_asked_id = 50;
   state_.of[1].last_asked_id = 40;
   EXPECT_EQ(choose(), 2);
@@ -159,7 +159,7 @@ TEST_F(ChoosePartTest, WhoWaitedLongestComesFirst) {
 }
 
 TEST_F(ChoosePartTest, LooksAtNoPartThatCannotBeSeen) {
-  VERIFIES("LASSO-MOD-161~2");
+  VERIFIES("LASSO-MOD-161~3");
   const Vec3 to_sensor = inverse(next_.predicted.T_sensor_target * parts_[0].T_target_part).p;
   const double range_m = to_sensor.norm();
   EXPECT_TRUE(parts_.size() == 2);
@@ -189,7 +189,7 @@ TEST_F(ChoosePartTest, LooksAtNoPartThatCannotBeSeen) {
 }
 
 TEST_F(ChoosePartTest, LooksAtNoPartWhosePlaceIsUncertain) {
-  VERIFIES("LASSO-MOD-161~2");
+  VERIFIES("LASSO-MOD-161~3");
   const double gate_m = parts_[0].mission.parameters.gate_first_m;
   Mat6 C = 1e-8 * Mat6::Identity();
   C(3, 3) = gate_m * gate_m;
@@ -201,7 +201,7 @@ TEST_F(ChoosePartTest, LooksAtNoPartWhosePlaceIsUncertain) {
 }
 
 TEST_F(ChoosePartTest, LooksAtNoPartWithoutAPrediction) {
-  VERIFIES("LASSO-MOD-161~2");
+  VERIFIES("LASSO-MOD-161~3");
   next_.predicted.initialised = false;
   EXPECT_EQ(choose(), kWhole);
   next_.predicted.initialised = true;

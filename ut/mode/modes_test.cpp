@@ -83,7 +83,7 @@ TEST(Modes, EachModeAnswersEveryResultOfItsScans) {
 }
 
 TEST(Modes, FollowTheStoryOfATrack) {
-  VERIFIES("LASSO-MOD-002~1");
+  VERIFIES("LASSO-MOD-002~2");
   EXPECT_EQ(next_mode(M::kStandby, E::kStart), M::kStarting);
   EXPECT_EQ(next_mode(M::kStarting, E::kPoseInvalid), M::kStarting);
   EXPECT_EQ(next_mode(M::kStarting, E::kPoseValid), M::kTracking);
@@ -105,7 +105,7 @@ TEST(Modes, FollowTheStoryOfARecovery) {
 }
 
 TEST(Modes, FollowTheStoryOfACheckedStart) {
-  VERIFIES("LASSO-MOD-188~1");
+  VERIFIES("LASSO-MOD-188~2");
   EXPECT_EQ(next_mode(M::kStarting, E::kCheck), M::kVerifying);
   EXPECT_EQ(next_mode(M::kVerifying, E::kPoseInvalid), M::kVerifying);
   EXPECT_EQ(next_mode(M::kVerifying, E::kPoseValid), M::kTracking);
@@ -116,7 +116,7 @@ TEST(Modes, FollowTheStoryOfACheckedStart) {
 
 // Commands, faults and the end of its frames lead out of a start as if it were not checked.
 TEST(Modes, AStartIsLeftTheSameWayWhetherItIsCheckedOrNot) {
-  VERIFIES("LASSO-MOD-188~1");
+  VERIFIES("LASSO-MOD-188~2");
   const std::set<E> between = {E::kPoseInvalid, E::kCheck, E::kConfirmAnew};  // the start goes on
   for (const ModeEventProperties& event : mode_events()) {
     if (between.count(event.event) != 0) continue;
@@ -128,7 +128,7 @@ TEST(Modes, AStartIsLeftTheSameWayWhetherItIsCheckedOrNot) {
 }
 
 TEST(Modes, FollowTheStoryOfASearch) {
-  VERIFIES("LASSO-MOD-142~1");
+  VERIFIES("LASSO-MOD-142~2");
   EXPECT_EQ(next_mode(M::kBearing, E::kSearch), M::kSearching);
   EXPECT_EQ(next_mode(M::kSearching, E::kPoseInvalid), M::kSearching);
   EXPECT_EQ(next_mode(M::kSearching, E::kPoseValid), M::kStarting);
@@ -137,7 +137,7 @@ TEST(Modes, FollowTheStoryOfASearch) {
 }
 
 TEST(Modes, FollowTheStoryOfAnApproachAndBack) {
-  VERIFIES("LASSO-MOD-164~1");
+  VERIFIES("LASSO-MOD-164~2");
   EXPECT_EQ(next_mode(M::kTracking, E::kNear), M::kShortRange);
   EXPECT_EQ(next_mode(M::kShortRange, E::kPoseValid), M::kShortRange);
   EXPECT_EQ(next_mode(M::kShortRange, E::kPoseInvalid), M::kShortRange);
@@ -167,7 +167,7 @@ TEST(Modes, IgnoreWhatTheTableDoesNotKnow) {
 }
 
 TEST(Modes, AreCommandedByTheirEvents) {
-  VERIFIES("LASSO-MOD-136~3");
+  VERIFIES("LASSO-MOD-136~4");
   for (const ModeProperties& mode : mode_properties()) {
     E event = E::kPoseValid;
     if (!command_event(mode.mode, event)) {

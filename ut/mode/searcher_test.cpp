@@ -117,7 +117,7 @@ class SearcherTest : public ::testing::Test {
 };
 
 TEST_F(SearcherTest, OffersWhatTheSearchAcceptsAsAStart) {
-  VERIFIES("LASSO-MOD-123~3 LASSO-MOD-111~1 LASSO-MOD-131~1");
+  VERIFIES("LASSO-MOD-123~4 LASSO-MOD-111~1 LASSO-MOD-131~1");
   const TrackStep step = follow(0);
   ASSERT_EQ(step.search.outcome, SearchOutcome::kAccepted);
   EXPECT_EQ(step.event, ModeEvent::kPoseValid);
@@ -132,7 +132,7 @@ TEST_F(SearcherTest, OffersWhatTheSearchAcceptsAsAStart) {
 }
 
 TEST_F(SearcherTest, WorksASliceAFrameAndSeesTheRateByAnotherScan) {
-  VERIFIES("LASSO-MOD-123~3 LASSO-MOD-118~1 LASSO-MOD-116~1");
+  VERIFIES("LASSO-MOD-123~4 LASSO-MOD-118~2 LASSO-MOD-116~1");
   look_from_the_right_side();
   const std::uint32_t frames = search_to_the_end(20000);
   EXPECT_GT(frames, 22u);
@@ -166,7 +166,7 @@ TEST_F(SearcherTest, MakesDoWithASingleScanWhereNoOtherIsAllowed) {
 }
 
 TEST_F(SearcherTest, AStartThatIsRefusedSaysWhyAndTheSearchBeginsAnew) {
-  VERIFIES("LASSO-MOD-134~2");
+  VERIFIES("LASSO-MOD-134~3");
   look_from_the_right_side();
   state_.bearing.p_m.z() += 6;
   for (std::uint32_t k = 0; k < 2; ++k) {
@@ -204,7 +204,7 @@ TEST_F(SearcherTest, WhatNobodyHasTakenIsOfferedAsLongAsTheTargetCannotHaveTurne
 }
 
 TEST_F(SearcherTest, WaitsForAScanThatABearingAimed) {
-  VERIFIES("LASSO-MOD-123~3 LASSO-MOD-111~1");
+  VERIFIES("LASSO-MOD-123~4 LASSO-MOD-111~1");
   look_from_few_sides();
   state_.bearing.scans = 2;
   EXPECT_EQ(follow(0).search.work, 0u);
@@ -214,7 +214,7 @@ TEST_F(SearcherTest, WaitsForAScanThatABearingAimed) {
 }
 
 TEST_F(SearcherTest, ALostScanIsToldAndTheWorkGoesOn) {
-  VERIFIES("LASSO-MOD-118~1");
+  VERIFIES("LASSO-MOD-118~2");
   parameters().search_slice = 1000;
   follow(0);
   const TrackStep step = follow(1, true);
@@ -234,7 +234,7 @@ TEST_F(SearcherTest, ANewSearchForgetsTheOneBefore) {
 }
 
 TEST_F(SearcherTest, AScanAfterARejectionBeginsAnotherSearch) {
-  VERIFIES("LASSO-MOD-186~2");
+  VERIFIES("LASSO-MOD-186~3");
   look_from_the_right_side();
   SearchLimits limits;
   limits.hits_min = 1e5;
@@ -253,7 +253,7 @@ class SymmetricSearcherTest : public SearcherTest {
 };
 
 TEST_F(SymmetricSearcherTest, AnAmbiguousTargetTakesFurtherScansAndThenASearchAnew) {
-  VERIFIES("LASSO-MOD-120~1");
+  VERIFIES("LASSO-MOD-120~2");
   SearchLimits limits;
   limits.scans_max = 2;
   limits.ratio_min = 100;
@@ -271,7 +271,7 @@ TEST_F(SymmetricSearcherTest, AnAmbiguousTargetTakesFurtherScansAndThenASearchAn
 }
 
 TEST_F(SymmetricSearcherTest, IsGivenUpAfterItsFrames) {
-  VERIFIES("LASSO-MOD-138~1 LASSO-MOD-142~1");
+  VERIFIES("LASSO-MOD-138~1 LASSO-MOD-142~2 LASSO-MOD-171~3");
   parameters().search_frames = 2;
   SearchLimits limits;
   limits.ratio_min = 100;

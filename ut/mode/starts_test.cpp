@@ -1,5 +1,6 @@
 #include "fsw/mode/starts.hpp"
 
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -49,7 +50,7 @@ TEST_F(StartsTest, AnOfferIsMovedToNow) {
 }
 
 TEST_F(StartsTest, WhatIsNotANumberIsRefused) {
-  VERIFIES("LASSO-MOD-134~2 LASSO-MOD-008~1");
+  VERIFIES("LASSO-MOD-134~3 LASSO-MOD-008~2");
   const StartOffer good = offer_;
   offer_.T_sensor_target.q.x() = kNan;
   EXPECT_EQ(try_offer(), StartRefusal::kNotFinite);
@@ -68,10 +69,15 @@ TEST_F(StartsTest, WhatIsNotANumberIsRefused) {
 }
 
 TEST_F(StartsTest, WhatCannotBeIsRefusedByItsName) {
-  VERIFIES("LASSO-MOD-134~2 LASSO-MOD-182~1");
+  VERIFIES("LASSO-MOD-134~3 LASSO-MOD-182~2 LASSO-MOD-008~2 LASSO-MOD-006~2");
   const StartOffer good = offer_;
   offer_.T_sensor_target.q.w() += 0.1;
   EXPECT_EQ(try_offer(), StartRefusal::kNotUnit);
+  for (const double off : {-1.1e-6, -0.9e-6, 0.9e-6, 1.1e-6}) {
+    offer_ = good;
+    offer_.T_sensor_target.q.coeffs() *= 1 + off;
+    EXPECT_EQ(try_offer(), std::abs(off) < 1e-6 ? StartRefusal::kNone : StartRefusal::kNotUnit) << off;
+  }
   offer_ = good;
   offer_.covariance(2, 2) = 0;
   EXPECT_EQ(try_offer(), StartRefusal::kBadCovariance);
@@ -79,9 +85,13 @@ TEST_F(StartsTest, WhatCannotBeIsRefusedByItsName) {
   offer_.covariance(2, 3) = 1e-3;
   EXPECT_EQ(try_offer(), StartRefusal::kBadCovariance);
   offer_ = good;
-  offer_.covariance(1, 1) = 11;
+  offer_.covariance(1, 1) = 3.19 * 3.19;
+  EXPECT_EQ(try_offer(), StartRefusal::kNone);
+  offer_.covariance(1, 1) = 3.21 * 3.21;
   EXPECT_EQ(try_offer(), StartRefusal::kBadCovariance) << "any attitude";
   offer_ = good;
+  offer_.covariance(4, 4) = 99 * mission_.parameters.range_max_m * mission_.parameters.range_max_m;
+  EXPECT_EQ(try_offer(), StartRefusal::kNone);
   offer_.covariance(4, 4) = 101 * mission_.parameters.range_max_m * mission_.parameters.range_max_m;
   EXPECT_EQ(try_offer(), StartRefusal::kBadCovariance) << "any place";
   offer_ = good;
@@ -89,7 +99,10 @@ TEST_F(StartsTest, WhatCannotBeIsRefusedByItsName) {
   EXPECT_EQ(try_offer(), StartRefusal::kFromFuture);
   offer_.t_us = kNow;
   EXPECT_EQ(try_offer(), StartRefusal::kNone);
-  offer_.t_us = kNow - static_cast<TimeUs>(1e6 * mission_.parameters.start_age_max_s) - 1;
+  mission_.parameters.start_age_max_s = 4;
+  offer_.t_us = kNow - 4000000;
+  EXPECT_EQ(try_offer(), StartRefusal::kNone);
+  --offer_.t_us;
   EXPECT_EQ(try_offer(), StartRefusal::kTooOld);
   offer_ = good;
   offer_.rates.omega_radps.y() = 1e7;  // more turns in 3 s than an angle can count
@@ -102,7 +115,7 @@ TEST_F(StartsTest, WhatCannotBeIsRefusedByItsName) {
 }
 
 TEST_F(StartsTest, WhatTheSensorCannotSeeIsRefused) {
-  VERIFIES("LASSO-MOD-134~2");
+  VERIFIES("LASSO-MOD-134~3");
   offer_.rates = Twist{};
   mission_.parameters.range_min_m = 1;
   for (const double z_m : {-2.5, 21.0, 0.2}) {
@@ -114,7 +127,7 @@ TEST_F(StartsTest, WhatTheSensorCannotSeeIsRefused) {
 }
 
 TEST_F(StartsTest, WhatAnotherSensorReachesIsTaken) {
-  VERIFIES("LASSO-MOD-134~2 LASSO-SNS-041~1");
+  VERIFIES("LASSO-MOD-134~3 LASSO-SNS-041~1");
   offer_.rates = Twist{};
   SensorParameters far = mission_.parameters;
   far.range_min_m = 30;
@@ -131,7 +144,7 @@ TEST_F(StartsTest, WhatAnotherSensorReachesIsTaken) {
 }
 
 TEST_F(StartsTest, WhatIsNotAtTheBearingIsRefused) {
-  VERIFIES("LASSO-MOD-134~2");
+  VERIFIES("LASSO-MOD-134~3");
   offer_.t_us = kNow;
   bearing_.started = true;
   bearing_.t_us = kNow - 1000000;
@@ -154,7 +167,7 @@ TEST_F(StartsTest, WhatIsNotAtTheBearingIsRefused) {
 }
 
 TEST_F(StartsTest, TheSourcesFollowTheMissionsOrder) {
-  VERIFIES("LASSO-MOD-131~1 LASSO-MOD-133~3");
+  VERIFIES("LASSO-MOD-131~1 LASSO-MOD-133~4");
   InitialPoseSources sources;
   MissionParameters& p = mission_.parameters;
   EXPECT_EQ(sources.next(p, false), InitialPoseSource::kNone);
@@ -175,7 +188,7 @@ TEST_F(StartsTest, TheSourcesFollowTheMissionsOrder) {
 }
 
 TEST_F(StartsTest, SearchHasItsTurnWhereItIsPossibleAndAgainWhenAllElseIsTried) {
-  VERIFIES("LASSO-MOD-131~1 LASSO-MOD-133~3");
+  VERIFIES("LASSO-MOD-131~1 LASSO-MOD-133~4");
   InitialPoseSources sources;
   MissionParameters& p = mission_.parameters;
   p.start_first = static_cast<double>(InitialPoseSource::kSearch);
@@ -191,7 +204,7 @@ TEST_F(StartsTest, SearchHasItsTurnWhereItIsPossibleAndAgainWhenAllElseIsTried) 
 }
 
 TEST_F(StartsTest, TheOrderNamesItsSources) {
-  VERIFIES("LASSO-MOD-133~3");
+  VERIFIES("LASSO-MOD-133~4");
   MissionParameters& p = mission_.parameters;
   p.start_first = static_cast<double>(InitialPoseSource::kSearch);
   p.start_fifth = static_cast<double>(InitialPoseSource::kUplink);
@@ -202,7 +215,7 @@ TEST_F(StartsTest, TheOrderNamesItsSources) {
 }
 
 TEST(StartNames, AreThoseOfTheCode) {
-  VERIFIES("LASSO-MOD-134~2");
+  VERIFIES("LASSO-MOD-134~3");
   EXPECT_EQ(std::string(to_string(InitialPoseSource::kUplink)), "uplink");
   EXPECT_EQ(std::string(to_string(InitialPoseSource::kSearch)), "search");
   EXPECT_EQ(std::string(to_string(static_cast<InitialPoseSource>(6))), "unknown");

@@ -43,7 +43,7 @@ class TrackerPartsTest : public test::TrackerTest {
 };
 
 TEST_F(TrackerPartsTest, ATrackThatIsNearGoesOnByParts) {
-  VERIFIES("LASSO-MOD-164~1 LASSO-MOD-171~2");
+  VERIFIES("LASSO-MOD-164~2 LASSO-MOD-171~3");
   come_near();
   for (std::uint32_t k = 2; k < 12; ++k) {
     const TrackStep step = see(k, static_cast<PartNumber>(1 + k % 2));
@@ -59,7 +59,7 @@ TEST_F(TrackerPartsTest, ATrackThatIsNearGoesOnByParts) {
 }
 
 TEST_F(TrackerPartsTest, LeavesAtALargerRangeThanItEnters) {
-  VERIFIES("LASSO-MOD-164~1 LASSO-MOD-171~2");
+  VERIFIES("LASSO-MOD-164~2 LASSO-MOD-171~3");
   come_near();
   parameters().short_range_enter_m = 1;  // between the two nothing happens
   EXPECT_EQ(see(2, 1).after.mode, M::kShortRange);
@@ -68,11 +68,12 @@ TEST_F(TrackerPartsTest, LeavesAtALargerRangeThanItEnters) {
   EXPECT_EQ(step.event, E::kFar);
   EXPECT_EQ(step.after.mode, M::kTracking);
   EXPECT_EQ(see(4, 1).after.mode, M::kTracking) << "a scan of a part that was in flight serves";
+  EXPECT_EQ(state_.filter.accepted, 4U) << "of the same filter since the start";
   EXPECT_TRUE(track(5).registration.valid());
 }
 
 TEST_F(TrackerPartsTest, AModeThatIsHeldIsNotLeftForTheRange) {
-  VERIFIES("LASSO-MOD-136~3");
+  VERIFIES("LASSO-MOD-136~4");
   start(small_error());
   track(0);
   state_.held = true;
@@ -87,7 +88,7 @@ TEST_F(TrackerPartsTest, AModeThatIsHeldIsNotLeftForTheRange) {
 
 // The target is 2.5 m away.
 TEST_F(TrackerPartsTest, ShortRangeThatIsCommandedFarAwayStaysUntilTheTargetHasComeAndGone) {
-  VERIFIES("LASSO-MOD-136~3 LASSO-MOD-171~2");
+  VERIFIES("LASSO-MOD-136~4 LASSO-MOD-171~3");
   parameters().short_range_enter_m = 1;
   parameters().short_range_leave_m = 2;
   start(small_error());
@@ -106,7 +107,7 @@ TEST_F(TrackerPartsTest, ShortRangeThatIsCommandedFarAwayStaysUntilTheTargetHasC
 }
 
 TEST_F(TrackerPartsTest, TrackingThatIsCommandedCloseByStaysUntilTheTargetHasGoneAndCome) {
-  VERIFIES("LASSO-MOD-136~3 LASSO-MOD-171~2");
+  VERIFIES("LASSO-MOD-136~4 LASSO-MOD-171~3");
   come_near();
   EXPECT_EQ(see(2, 1).event, E::kPoseValid);
   change_mode(E::kFar, state_);
@@ -122,7 +123,7 @@ TEST_F(TrackerPartsTest, TrackingThatIsCommandedCloseByStaysUntilTheTargetHasGon
 }
 
 TEST_F(TrackerPartsTest, ATrackThatStartsAnewGoesByTheRange) {
-  VERIFIES("LASSO-MOD-171~2");
+  VERIFIES("LASSO-MOD-171~3");
   come_near();
   change_mode(E::kFar, state_);
   ASSERT_TRUE(state_.range_awaited);
@@ -132,7 +133,7 @@ TEST_F(TrackerPartsTest, ATrackThatStartsAnewGoesByTheRange) {
 
 // Whether it was the range or a command that led to the mode in which the target was lost.
 TEST_F(TrackerPartsTest, ATrackThatIsReacquiredGoesByTheRange) {
-  VERIFIES("LASSO-MOD-164~1 LASSO-MOD-171~2");
+  VERIFIES("LASSO-MOD-164~2 LASSO-MOD-171~3");
   for (const bool commanded : {false, true}) {
     come_near();
     if (commanded) change_mode(E::kFar, state_);
@@ -145,7 +146,7 @@ TEST_F(TrackerPartsTest, ATrackThatIsReacquiredGoesByTheRange) {
 }
 
 TEST_F(TrackerPartsTest, StartingAndCoastingAreNotCutShort) {
-  VERIFIES("LASSO-MOD-171~2");
+  VERIFIES("LASSO-MOD-171~3");
   start(small_error());
   EXPECT_EQ(track(0).event, E::kPoseValid);
   miss(1);
@@ -155,7 +156,7 @@ TEST_F(TrackerPartsTest, StartingAndCoastingAreNotCutShort) {
 }
 
 TEST_F(TrackerPartsTest, PartsWithoutAPoseAreBridgedAndThenTheTrackIsLost) {
-  VERIFIES("LASSO-MOD-005~1");
+  VERIFIES("LASSO-MOD-005~2");
   come_near();
   for (std::uint32_t k = 2; k < 4; ++k) {
     miss(k);
@@ -208,7 +209,7 @@ TEST_F(TrackerPartsTest, APartThatMovedAgainstTheTargetIsDropped) {
 }
 
 TEST_F(TrackerPartsTest, TheModeBeginsWithoutMemoriesOfParts) {
-  VERIFIES("LASSO-MOD-164~1");
+  VERIFIES("LASSO-MOD-164~2");
   come_near();
   see(2, 1);
   EXPECT_TRUE(state_.parts.of[0].measured);
@@ -219,7 +220,7 @@ TEST_F(TrackerPartsTest, TheModeBeginsWithoutMemoriesOfParts) {
 }
 
 TEST_F(TrackerPartsTest, TheNextPartIsChosenForTheScanToBePlanned) {
-  VERIFIES("LASSO-MOD-161~2");
+  VERIFIES("LASSO-MOD-161~3");
   start(small_error());
   TrackStep step = track(0);
   EXPECT_EQ(next_part(mission_, parts_, kWhole, 2, 3 * test::kPeriodUs, step), kWhole) << "not in a mode of parts";

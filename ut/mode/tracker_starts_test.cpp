@@ -12,7 +12,7 @@ using test::small_error;
 using test::TrackerTest;
 
 TEST_F(TrackerTest, FirstRegistrationStartsTheFilterAnew) {
-  VERIFIES("LASSO-MOD-003~2");
+  VERIFIES("LASSO-MOD-003~3");
   start(small_error());
   const RangeImage& image = scan(0);
   FilterState known = state_.filter;
@@ -29,7 +29,7 @@ TEST_F(TrackerTest, FirstRegistrationStartsTheFilterAnew) {
 
 // A filter that has no meaning, as a flipped bit leaves it, starts from the scan alone.
 TEST_F(TrackerTest, AFirstRegistrationCanStandAlone) {
-  VERIFIES("LASSO-MOD-003~2");
+  VERIFIES("LASSO-MOD-003~3");
   start(small_error());
   state_.filter.covariance(0, 0) = -1;
   const TrackStep step = track(0);
@@ -84,7 +84,7 @@ TEST_F(TrackerTest, OnlyModesThatLookForTheTargetRegisterFromAWideStart) {
 }
 
 TEST_F(TrackerTest, MovesTheStartToItsFrame) {
-  VERIFIES("LASSO-MOD-003~2 LASSO-MOD-132~1");
+  VERIFIES("LASSO-MOD-003~3 LASSO-MOD-132~1");
   ASSERT_EQ(start_at(scene_.pose_at(300000), scene_.rates, 300000, 1000000), StartRefusal::kNone);
   EXPECT_LT(error(state_.filter.T_sensor_target, 1000000).norm(), 1e-12);
   EXPECT_EQ(state_.filter.t_us, 1000000);
@@ -93,7 +93,7 @@ TEST_F(TrackerTest, MovesTheStartToItsFrame) {
 }
 
 TEST_F(TrackerTest, RefusesAStartThatMeansNothing) {
-  VERIFIES("LASSO-MOD-008~1");
+  VERIFIES("LASSO-MOD-008~2");
   Pose bad = scene_.at_zero;
   bad.q.w() += 0.1;
   EXPECT_EQ(start_at(bad, Twist{}, 0, 0), StartRefusal::kNotUnit);
@@ -106,7 +106,7 @@ TEST_F(TrackerTest, RefusesAStartThatMeansNothing) {
 
 // Twelve degrees off with a believed sigma of half a degree: the scan finds the target, but not where the start says.
 TEST_F(TrackerTest, AStartFartherOffThanItsCovarianceSaysIsNotConfirmed) {
-  VERIFIES("LASSO-MOD-132~1 LASSO-MOD-134~2");
+  VERIFIES("LASSO-MOD-132~1 LASSO-MOD-134~3");
   MissionParameters p = test::box_parameters(scene_);
   p.start_sigma_rad = 0.01;
   p.start_sigma_m = 0.005;
@@ -122,7 +122,7 @@ TEST_F(TrackerTest, AStartFartherOffThanItsCovarianceSaysIsNotConfirmed) {
 }
 
 TEST_F(MastTest, AStartHalfATurnOffIsNeverTracked) {
-  VERIFIES("LASSO-MOD-132~1 LASSO-MOD-134~2 LASSO-MOD-182~1");
+  VERIFIES("LASSO-MOD-132~1 LASSO-MOD-134~3 LASSO-MOD-171~3 LASSO-MOD-182~2");
   load_with_others(0.9);
   start(small_error());
   track_view(0);
@@ -153,7 +153,7 @@ TEST_F(MastTest, AStartThatExplainsTooLittleOfItsScanIsNotConfirmed) {
 
 // Where a start's share alone would do, its rays tell.
 TEST_F(MastTest, AStartThatANearSymmetryTurnedIsRefusedByTheRaysThatContradictIt) {
-  VERIFIES("LASSO-MOD-182~1 LASSO-MOD-183~3");
+  VERIFIES("LASSO-MOD-182~2 LASSO-MOD-183~3");
   load_with_others(0);
   start(small_error());
   ASSERT_TRUE(track_view(0).registration.valid()) << "the right start is taken";
@@ -190,7 +190,7 @@ TEST_F(MastTest, AStartOfASymmetricTargetIsTaken) {
 }
 
 TEST_F(TrackerTest, BeginningATrackTakesMoreThanKeepingIt) {
-  VERIFIES("LASSO-MOD-135~2");
+  VERIFIES("LASSO-MOD-135~3 LASSO-MOD-171~3");
   MissionParameters p = test::box_parameters(scene_);
   p.inlier_share_min = 0.9;
   p.start_inlier_share_min = p.agreement_min = 0;
@@ -215,7 +215,7 @@ TEST_F(TrackerTest, BeginningATrackTakesMoreThanKeepingIt) {
 }
 
 TEST_F(TrackerTest, BeginningATrackTakesHalfTheContradictionsThatKeepIt) {
-  VERIFIES("LASSO-MOD-135~2");
+  VERIFIES("LASSO-MOD-135~3 LASSO-MOD-171~3");
   MissionParameters p = test::box_parameters(scene_);
   p.start_inlier_share_min = p.agreement_min = p.inlier_share_min = 0;
   p.hysteresis = 0.5;
@@ -240,7 +240,7 @@ TEST_F(TrackerTest, BeginningATrackTakesHalfTheContradictionsThatKeepIt) {
 
 // A filter that nobody has heard of for too long has nothing against what a scan finds.
 TEST_F(TrackerTest, AStartThatCannotBePredictedIsConfirmedByTheScanAlone) {
-  VERIFIES("LASSO-MOD-003~2");
+  VERIFIES("LASSO-MOD-003~3");
   start(small_error());
   state_.filter.initialised = false;
   EXPECT_TRUE(track(0).registration.valid());

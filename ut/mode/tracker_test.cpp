@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "ut/mode/tracker_fixture.hpp"
+#include "ut/support/dense.hpp"
 
 namespace lasso {
 namespace {
@@ -11,7 +12,7 @@ using test::small_error;
 using test::TrackerTest;
 
 TEST_F(TrackerTest, FollowsTheTargetAndLearnsItsRates) {
-  VERIFIES("LASSO-MOD-003~2");
+  VERIFIES("LASSO-MOD-003~3 LASSO-MOD-002~2");
   start(small_error());
   EXPECT_EQ(state_.mode, TrackingMode::kStarting);
   for (std::uint32_t k = 0; k < 30; ++k) {
@@ -29,7 +30,7 @@ TEST_F(TrackerTest, FollowsTheTargetAndLearnsItsRates) {
 }
 
 TEST_F(TrackerTest, CoastsOnThePredictionAndTakesUpTheTrackAgain) {
-  VERIFIES("LASSO-MOD-005~1");
+  VERIFIES("LASSO-MOD-005~2 LASSO-MOD-002~2");
   start(small_error());
   for (std::uint32_t k = 0; k < 20; ++k) track(k);
   for (std::uint32_t k = 20; k < 25; ++k) {
@@ -47,7 +48,7 @@ TEST_F(TrackerTest, CoastsOnThePredictionAndTakesUpTheTrackAgain) {
 }
 
 TEST_F(TrackerTest, IsLostAfterTheFramesOfTheMission) {
-  VERIFIES("LASSO-MOD-007~1");
+  VERIFIES("LASSO-MOD-007~2 LASSO-MOD-002~2 LASSO-MOD-005~2 LASSO-MOD-171~3");
   MissionParameters p = test::box_parameters(scene_);
   p.coast_frames = 3;
   load(p);
@@ -58,7 +59,7 @@ TEST_F(TrackerTest, IsLostAfterTheFramesOfTheMission) {
 }
 
 TEST_F(TrackerTest, EmptySpaceIsNoPose) {
-  VERIFIES("LASSO-MOD-005~1");
+  VERIFIES("LASSO-MOD-005~2");
   start(small_error());
   track(0);
   RangeImage& empty = scan(1);
@@ -73,7 +74,7 @@ TEST_F(TrackerTest, EmptySpaceIsNoPose) {
 
 // The target steps aside farther than the filter thinks possible: the registration finds it, yet nobody can tell it from a wrong minimum.
 TEST_F(TrackerTest, AJumpThatTheFilterExcludesIsImplausible) {
-  VERIFIES("LASSO-MOD-009~1");
+  VERIFIES("LASSO-MOD-009~2");
   start(small_error());
   for (std::uint32_t k = 0; k < 20; ++k) track(k);
   const TrackState before = state_;
@@ -88,15 +89,29 @@ TEST_F(TrackerTest, AJumpThatTheFilterExcludesIsImplausible) {
   state_ = before;
   state_.filter.accepted = 4;  // a young track may have begun wrongly: the scan corrects it
   EXPECT_TRUE(track(20).registration.valid());
+  state_ = before;
+  state_.filter.accepted = 5;
+  EXPECT_EQ(track(20).registration.reason, PoseReason::kImplausible);
   MissionParameters lenient = test::box_parameters(scene_);
   lenient.innovation_max = 1000;
   load(lenient);
   state_ = before;
-  EXPECT_TRUE(track(20).registration.valid());
+  const Registration found = track(20).registration;
+  EXPECT_TRUE(found.valid());
+  FilterState then = before.filter;
+  ASSERT_EQ(predict_filter(then, found.t_us, filter_noise(lenient)), Status::kOk);
+  const Vec6 innovation = pose_difference(found.T_sensor_target, then.T_sensor_target);
+  const Mat6 S = then.covariance.topLeftCorner<6, 6>() + found.covariance;
+  const double sigmas = std::sqrt(innovation.dot(test::solution_of(S, innovation)));
+  for (const double share : {0.999, 1.001}) {
+    mission_.parameters.innovation_max = share * sigmas;
+    state_ = before;
+    EXPECT_EQ(track(20).registration.reason, share < 1 ? PoseReason::kImplausible : PoseReason::kValid) << share;
+  }
 }
 
 TEST_F(TrackerTest, AnUncertainPredictionIsARoughStart) {
-  VERIFIES("LASSO-MOD-010~1");
+  VERIFIES("LASSO-MOD-010~2");
   start(small_error());
   for (std::uint32_t k = 0; k < 5; ++k) track(k);
   state_.filter.T_sensor_target.q = normalized(exp_so3(Vec3(0.12, -0.1, 0.08)) * state_.filter.T_sensor_target.q);
@@ -109,11 +124,23 @@ TEST_F(TrackerTest, AnUncertainPredictionIsARoughStart) {
   state_ = sure;
   const TrackStep narrow = track(5);
   EXPECT_GT(error(narrow.registration.T_sensor_target, narrow.registration.t_us).norm(), 5e-3);
+  // Of the limit of one axis alone, on both sides; and where the mission asks for none.
+  const auto finds = [&](double share) {
+    state_ = sure;
+    state_.filter.covariance = 1e-12 * Mat12::Identity();
+    state_.filter.covariance(4, 4) = share * share * mission_.parameters.gate_first_m * mission_.parameters.gate_first_m;
+    const Registration found = track(5).registration;
+    return error(found.T_sensor_target, found.t_us).norm() < 5e-3;
+  };
+  EXPECT_FALSE(finds(0.95));
+  EXPECT_TRUE(finds(1.05));
+  mission_.parameters.wide_start = 0;
+  EXPECT_FALSE(finds(1.05));
 }
 
 // A covariance that says of two directions that they are one has no inverse with the scan's.
 TEST_F(TrackerTest, AScanThatTheFilterCannotJoinStartsItAnew) {
-  VERIFIES("LASSO-MOD-003~2");
+  VERIFIES("LASSO-MOD-003~3");
   start(small_error());
   track(0);
   state_.filter.covariance.topLeftCorner<6, 6>().setConstant(1e9);
@@ -125,7 +152,7 @@ TEST_F(TrackerTest, AScanThatTheFilterCannotJoinStartsItAnew) {
 }
 
 TEST_F(TrackerTest, AfterTooLongAPauseAValidScanStartsTheFilterAnew) {
-  VERIFIES("LASSO-MOD-003~2");
+  VERIFIES("LASSO-MOD-003~3");
   start(small_error());
   for (std::uint32_t k = 0; k < 5; ++k) track(k);
   const Pose last = state_.filter.T_sensor_target;
@@ -143,7 +170,7 @@ TEST_F(TrackerTest, AfterTooLongAPauseAValidScanStartsTheFilterAnew) {
 
 // Only memory that was hit can hold such a state: the scan may be good, but no filter stands behind it.
 TEST_F(TrackerTest, APoseWithoutAFilterIsNotValid) {
-  VERIFIES("LASSO-MOD-003~2");
+  VERIFIES("LASSO-MOD-003~3");
   MissionParameters p = test::box_parameters(scene_);
   p.deskew = 0;
   load(p);
@@ -157,7 +184,7 @@ TEST_F(TrackerTest, APoseWithoutAFilterIsNotValid) {
 }
 
 TEST_F(TrackerTest, WithoutATrackTheLastPoseStandsWithItsOwnTime) {
-  VERIFIES("LASSO-MOD-007~1");
+  VERIFIES("LASSO-MOD-007~2");
   start(small_error());
   track(0);
   const TrackStep step = no_track(44, state_);
@@ -168,7 +195,7 @@ TEST_F(TrackerTest, WithoutATrackTheLastPoseStandsWithItsOwnTime) {
 }
 
 TEST_F(TrackerTest, LooksNearThePredictionThenForTheBearing) {
-  VERIFIES("LASSO-MOD-138~1");
+  VERIFIES("LASSO-MOD-138~1 LASSO-MOD-003~3 LASSO-MOD-171~3");
   MissionParameters p = test::box_parameters(scene_);
   p.coast_frames = 2;
   p.reacquire_frames = 3;
@@ -195,7 +222,7 @@ TEST_F(TrackerTest, LooksNearThePredictionThenForTheBearing) {
 
 // Of a mission that asks for no recovery: which event ends a start that no scan confirms.
 TEST_F(TrackerTest, AStartThatIsNotConfirmedLeavesASearchThatIsInTheOrder) {
-  VERIFIES("LASSO-MOD-133~3");
+  VERIFIES("LASSO-MOD-133~4");
   for (const bool ordered : {true, false}) {
     for (const InitialPoseSource source : {InitialPoseSource::kUplink, InitialPoseSource::kSearch}) {
       MissionParameters p = test::box_parameters(scene_);
@@ -218,7 +245,7 @@ TEST_F(TrackerTest, AStartThatIsNotConfirmedLeavesASearchThatIsInTheOrder) {
 }
 
 TEST_F(TrackerTest, AHeldModeDoesNotEndByItself) {
-  VERIFIES("LASSO-MOD-136~3");
+  VERIFIES("LASSO-MOD-136~4");
   MissionParameters p = test::box_parameters(scene_);
   p.coast_frames = 1;
   load(p);

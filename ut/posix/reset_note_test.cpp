@@ -43,7 +43,7 @@ class ResetNoteTest : public ::testing::Test {
 };
 
 TEST_F(ResetNoteTest, SaysWhatEndedTheProgramBefore) {
-  VERIFIES("LASSO-HLT-005~1");
+  VERIFIES("LASSO-HLT-005~2");
   EXPECT_EQ(cause(), ResetCause::kPowerOn);
   run([] { std::abort(); });
   EXPECT_EQ(cause(), ResetCause::kInvariant);
@@ -61,7 +61,7 @@ TEST_F(ResetNoteTest, SaysWhatEndedTheProgramBefore) {
 }
 
 TEST_F(ResetNoteTest, AFileThatCannotBeMadeIsAnError) {
-  VERIFIES("LASSO-HLT-005~1");
+  VERIFIES("LASSO-HLT-005~2");
   EXPECT_THROW(ResetNote((folder_ / "none").string()), std::system_error);
 }
 

@@ -18,12 +18,12 @@ void wait_ms(int ms) { std::this_thread::sleep_for(std::chrono::milliseconds(ms)
 }
 
 TEST(TimerWatchdogDeathTest, BitesWhenNobodyFeedsIt) {
-  VERIFIES("LASSO-HLT-003~1");
+  VERIFIES("LASSO-HLT-003~2");
   EXPECT_EXIT(starve(), ::testing::KilledBySignal(SIGABRT), "");
 }
 
 TEST(TimerWatchdog, IsQuietBeforeTheFirstFeedWhileItIsFedAndWhenItIsGone) {
-  VERIFIES("LASSO-HLT-003~1");
+  VERIFIES("LASSO-HLT-003~2");
   {
     posix::TimerWatchdog watchdog(60'000'000);
     wait_ms(5);

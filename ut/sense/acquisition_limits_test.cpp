@@ -44,7 +44,7 @@ class BadSamplesTest : public test::AcquisitionTest {
 };
 
 TEST_F(BadSamplesTest, BadSamplesBecomeInvalidAndAreCountedByReason) {
-  VERIFIES("LASSO-SNS-022~3 LASSO-SYS-011~1");
+  VERIFIES("LASSO-SNS-022~3 LASSO-SYS-011~2");
   std::vector<RangeSample>& s = sensor.samples;
   for (const std::size_t i : {14u, 15u, 20u, 21u, 22u}) s[i].state = RayState::kHit;
   s[10].direction[1] = kNan;

@@ -193,7 +193,7 @@ TEST_F(Missions, ContradictionsAreRefused) {
 }
 
 TEST_F(Missions, SourcesOfAStartAreTriedOnceEach) {
-  VERIFIES("LASSO-GND-001~1 LASSO-MOD-133~3");
+  VERIFIES("LASSO-GND-001~1 LASSO-MOD-133~4");
   expect_error(kHead + "[start]\nthird = 'handover'\n", "expected another source than that of start.second, or none");
   EXPECT_EQ(load(kHead + "[start]\nsecond = 'none'\nthird = 'none'\n").parameters.start_third, 0);
 }

@@ -73,7 +73,7 @@ TEST_F(MissionTarget, APartIsCutOrReadAndPutIntoItsFrame) {
 }
 
 TEST_F(MissionTarget, APartWithoutASurfaceIsToldWhereItIsNamed) {
-  VERIFIES("LASSO-MOD-182~1");
+  VERIFIES("LASSO-MOD-182~2");
   const MissionSource empty = load_with_part("[part.bay]\nbox_m = [5, 5, 5, 6, 6, 6]\n");
   const std::string nothing = mission_error_of([&] { static_cast<void>(load_part(empty, empty.parts[0], load_target(empty))); });
   EXPECT_NE(nothing.find("m.toml:8:9: part.bay.box_m: nothing of the target lies in the box: the part has no model"), std::string::npos)

@@ -67,7 +67,7 @@ TEST(MissionText, InfoShowsWhatAScenarioTakesFromItsSensorInItsUnit) {
 }
 
 TEST(MissionText, CheckWarnsOfAStartThatNoSensorReaches) {
-  VERIFIES("LASSO-GND-003~1 LASSO-MOD-134~2");
+  VERIFIES("LASSO-GND-003~1 LASSO-MOD-134~3");
   const Folder folder;
   folder.write("box.toml", "[[part]]\nkind = 'box'\nsize = [1, 1, 1]\n");
   const std::string head =

@@ -50,7 +50,7 @@ TEST_F(PartReaderTest, ReadsWhatAPartIsAndWhereItServes) {
 }
 
 TEST_F(PartReaderTest, APartWithoutAModelIsNamedWithItsPlaceAndTheRemedy) {
-  VERIFIES("LASSO-MOD-182~1");
+  VERIFIES("LASSO-MOD-182~2");
   expect_error("[part.bay]\n" + kPlace, "m.toml:7:1: part.bay.box_m");
   expect_error("[part.bay]\n" + kPlace, "exactly one model: box_m (cut from the target), model or mesh; 0 are given");
   expect_error("[part.bay]\n" + kPlace + kBox + "mesh = 'x.stl'\n", "2 are given");
@@ -77,7 +77,7 @@ TEST_F(PartReaderTest, RefusesValuesThatContradictEachOther) {
 }
 
 TEST_F(PartReaderTest, ShortRangeNeedsPartsAndAHysteresis) {
-  VERIFIES("LASSO-MOD-171~2");
+  VERIFIES("LASSO-MOD-171~3");
   expect_error("[short_range]\nenter_m = 5\nleave_m = 6\n", "m.toml:8:11: short_range.enter_m: 5: the mission has no parts to look at");
   expect_error("[short_range]\nenter_m = 5\nleave_m = 5\n[part.bay]\n" + kBox + kPlace,
                "expected more than short_range.enter_m, which is 5 m");

@@ -77,17 +77,17 @@ class StrangersTest : public test::WholeSearch {
 
 // The same way of looking finds the target itself.
 TEST_F(StrangersTest, TheTargetIsAccepted) {
-  VERIFIES("LASSO-MOD-119~1");
+  VERIFIES("LASSO-MOD-119~2");
   EXPECT_GE(accepted([](const Vec3& origin, const Vec3& u) { return test::cast_boxes(test::uneven_boxes(), origin, u); }), 4);
 }
 
 TEST_F(StrangersTest, WhereNothingIsNothingIsAccepted) {
-  VERIFIES("LASSO-MOD-119~1");
+  VERIFIES("LASSO-MOD-119~2");
   EXPECT_EQ(accepted([](const Vec3&, const Vec3&) { return -1.0; }, 0.3), 0);
 }
 
 TEST_F(StrangersTest, AnotherSpacecraftIsNotAccepted) {
-  VERIFIES("LASSO-MOD-119~1");
+  VERIFIES("LASSO-MOD-119~2");
   // A body of about the same size with two panels and a mast.
   const test::Boxes other{{{0, 0, 0}, {0.16, 0.15, 0.20}, 0.02, 0.2},
                           {{0, 0.36, 0.05}, {0.10, 0.18, 0.01}, 0.02, 0.2},
@@ -97,12 +97,12 @@ TEST_F(StrangersTest, AnotherSpacecraftIsNotAccepted) {
 }
 
 TEST_F(StrangersTest, APlainCylinderIsNotAccepted) {
-  VERIFIES("LASSO-MOD-119~1");
+  VERIFIES("LASSO-MOD-119~2");
   EXPECT_EQ(accepted([](const Vec3& origin, const Vec3& u) { return cast_cylinder(0.32, 0.17, origin, u); }), 0);
 }
 
 TEST_F(StrangersTest, ASphereIsNotAccepted) {
-  VERIFIES("LASSO-MOD-119~1");
+  VERIFIES("LASSO-MOD-119~2");
   EXPECT_EQ(accepted([](const Vec3& origin, const Vec3& u) { return cast_sphere(0.25, origin, u); }), 0);
 }
 

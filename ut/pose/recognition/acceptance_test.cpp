@@ -11,7 +11,7 @@ namespace {
 using VerdictTest = test::WholeSearch;
 
 TEST(Verdict, AFarScoreLeavesARivalBehind) {
-  VERIFIES("LASSO-MOD-122~1");
+  VERIFIES("LASSO-MOD-122~2");
   EXPECT_TRUE(is_outscored({2.0, false, 0, 0}, 1.3));
   EXPECT_TRUE(is_outscored({2.0, true, 1.0, 1.0}, 1.3));
   EXPECT_TRUE(is_outscored({1.4, false, 0, 0}, 1.3)) << "nothing else is known";
@@ -21,7 +21,7 @@ TEST(Verdict, AFarScoreLeavesARivalBehind) {
 }
 
 TEST(Verdict, ScoresAreComparedAboveAFloorAndNearOnesAskForCosts) {
-  VERIFIES("LASSO-MOD-122~1");
+  VERIFIES("LASSO-MOD-122~2");
   EXPECT_DOUBLE_EQ(ratio_of(0.02, 0.02), 1);
   EXPECT_DOUBLE_EQ(ratio_of(0.05, 0.02), 2);
   EXPECT_TRUE(is_near(1.94, 1.0, 1.3));
@@ -31,14 +31,14 @@ TEST(Verdict, ScoresAreComparedAboveAFloorAndNearOnesAskForCosts) {
 }
 
 TEST(Verdict, ANearScoreDoesNotWhereTheNoiseSaysOtherwise) {
-  VERIFIES("LASSO-MOD-122~1 LASSO-MOD-121~1");
+  VERIFIES("LASSO-MOD-122~2 LASSO-MOD-121~1");
   EXPECT_TRUE(is_outscored({1.4, true, 1.5, 1.0}, 1.3));
   EXPECT_FALSE(is_outscored({1.4, true, 1.1, 0.8}, 1.3)) << "explained as the noise allows";
   EXPECT_FALSE(is_outscored({1.4, true, 3.0, 2.9}, 1.3)) << "as badly as the best";
 }
 
 TEST(Verdict, WhereSeveralScansTellTheNoiseHasToAgreeLessClearly) {
-  VERIFIES("LASSO-MOD-122~1 LASSO-MOD-120~1");
+  VERIFIES("LASSO-MOD-122~2 LASSO-MOD-120~2");
   EXPECT_FALSE(is_outscored({2.0, true, 2.2, 2.0, 1.0, 0, 1}, 1.3));
   EXPECT_TRUE(is_outscored({2.0, true, 2.2, 2.0, 1.0, 0, 2}, 1.3));
   EXPECT_FALSE(is_outscored({2.0, true, 2.05, 2.0, 1.0, 0, 2}, 1.3)) << "alike";
@@ -46,7 +46,7 @@ TEST(Verdict, WhereSeveralScansTellTheNoiseHasToAgreeLessClearly) {
 }
 
 TEST(Verdict, WhatIsExplainedHasToBeExplainedAsTheNoiseAllowsWhereSomethingIsNot) {
-  VERIFIES("LASSO-MOD-122~1 LASSO-MOD-119~1");
+  VERIFIES("LASSO-MOD-122~2 LASSO-MOD-119~2");
   EXPECT_TRUE(is_outscored({1.4, false, 0, 2.5, 1.5, 0.05}, 1.3)) << "a part is off";
   EXPECT_FALSE(is_outscored({1.4, false, 0, 2.5, 1.55, 0.05}, 1.3)) << "everything is a little off";
   EXPECT_FALSE(is_outscored({1.4, true, 6.0, 2.5, 2.0, 0.05}, 1.3));
@@ -57,14 +57,14 @@ TEST(Verdict, WhatIsExplainedHasToBeExplainedAsTheNoiseAllowsWhereSomethingIsNot
 }
 
 TEST(Verdict, TheNoiseAloneTellsWhatLooksAlike) {
-  VERIFIES("LASSO-MOD-120~1");
+  VERIFIES("LASSO-MOD-120~2");
   EXPECT_TRUE(is_outscored({1.05, true, 1.4, 1.0}, 1.3));
   EXPECT_FALSE(is_outscored({1.05, true, 1.2, 1.0}, 1.3));
   EXPECT_FALSE(is_outscored({1.05, true, 0.5, 1.0}, 1.3));
 }
 
 TEST_F(VerdictTest, RejectsAnotherTarget) {
-  VERIFIES("LASSO-MOD-122~1");
+  VERIFIES("LASSO-MOD-122~2");
   scan_.model.half = Vec3(0.09, 0.42, 0.05);
   scan_.others.clear();
   for (int i = 0; i < 2; ++i) {
@@ -77,7 +77,7 @@ TEST_F(VerdictTest, RejectsAnotherTarget) {
 }
 
 TEST_F(VerdictTest, RejectsAPoseThatLeavesTooMuchUnexplained) {
-  VERIFIES("LASSO-MOD-122~1");
+  VERIFIES("LASSO-MOD-122~2");
   look_from_few_sides();
   limits_.disagreement_max = -1;
   search_->begin(limits_);
@@ -87,7 +87,7 @@ TEST_F(VerdictTest, RejectsAPoseThatLeavesTooMuchUnexplained) {
 }
 
 TEST_F(VerdictTest, RejectsTooFewReturns) {
-  VERIFIES("LASSO-MOD-122~1");
+  VERIFIES("LASSO-MOD-122~2");
   look_from_few_sides();
   limits_.hits_min = 1000;
   search_->begin(limits_);
@@ -96,8 +96,35 @@ TEST_F(VerdictTest, RejectsTooFewReturns) {
   EXPECT_EQ(result().reason, SearchReason::kTooFewReturns);
 }
 
+// The same scan, its result on either side of each limit.
+TEST_F(VerdictTest, AcceptsUpToItsLimitsAndNotBeyond) {
+  VERIFIES("LASSO-MOD-122~2");
+  EXPECT_EQ(SearchLimits().hits_min, 80);
+  EXPECT_EQ(SearchLimits().disagreement_max, 0.20);
+  EXPECT_EQ(SearchLimits().ratio_min, 1.3);
+  scan_.T_sensor_target = test::random_box_pose(random_);
+  const auto image = scan_at(0);
+  const std::uint32_t enough = limits_.work_max;
+  const SearchResult found = search_within(enough, *image);
+  ASSERT_EQ(found.outcome, SearchOutcome::kAccepted);
+  limits_.hits_min = found.returns;
+  EXPECT_EQ(search_within(enough, *image).outcome, SearchOutcome::kAccepted);
+  limits_.hits_min = found.returns + 1;
+  EXPECT_EQ(search_within(enough, *image).reason, SearchReason::kTooFewReturns);
+  scan_.model.half = Vec3(0.09, 0.42, 0.05);  // another target: all poses leave something unexplained
+  const auto other = scan_at(0);
+  limits_ = SearchLimits();
+  limits_.disagreement_max = 1;
+  const double unexplained = search_within(enough, *other).disagreement;
+  ASSERT_GT(unexplained, 0);
+  limits_.disagreement_max = 1.1 * unexplained;
+  EXPECT_NE(search_within(enough, *other).reason, SearchReason::kUnexplained);
+  limits_.disagreement_max = 0.9 * unexplained;
+  EXPECT_EQ(search_within(enough, *other).reason, SearchReason::kUnexplained);
+}
+
 TEST_F(VerdictTest, RejectsWhatCannotBeRegistered) {
-  VERIFIES("LASSO-MOD-122~1");
+  VERIFIES("LASSO-MOD-122~2");
   look_from_few_sides();
   auto image = scan_at(0);
   int hits = 0;
@@ -120,7 +147,7 @@ class SymmetricVerdictTest : public VerdictTest {
 };
 
 TEST_F(SymmetricVerdictTest, ASymmetricTargetIsAmbiguousWithItsCandidates) {
-  VERIFIES("LASSO-MOD-121~1 LASSO-MOD-120~1");
+  VERIFIES("LASSO-MOD-121~1 LASSO-MOD-120~2");
   for (int i = 0; i < 2; ++i) {
     scan_.T_sensor_target = test::random_box_pose(random_);
     search_->begin(limits_);

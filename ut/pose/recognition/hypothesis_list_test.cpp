@@ -16,7 +16,7 @@ Pose turned(double angle) {
 }
 
 TEST(HypothesisList, KeepsTheBestOfEachPlaceBestFirst) {
-  VERIFIES("LASSO-MOD-117~1");
+  VERIFIES("LASSO-MOD-117~2");
   HypothesisList list;
   list.add(turned(0.0), 0.5);
   list.add(turned(0.3), 0.2);
@@ -39,7 +39,7 @@ TEST(HypothesisList, KeepsTheBestOfEachPlaceBestFirst) {
 }
 
 TEST(HypothesisList, KeepsNoMoreThanAreDrawn) {
-  VERIFIES("LASSO-MOD-117~1");
+  VERIFIES("LASSO-MOD-117~2");
   HypothesisList list;
   for (std::size_t i = 0; i < kShortList; ++i) list.add(turned(0.09 * static_cast<double>(i)), static_cast<double>(kShortList - i));
   list.keep_best();

@@ -74,7 +74,7 @@ TEST_F(SettleTest, WhatCannotBeExplainedTakesAllAttemptsAndKeepsTheBest) {
 }
 
 TEST_F(SettleTest, ASketchTellsRightFromWrongByLessWork) {
-  VERIFIES("LASSO-MOD-117~1");
+  VERIFIES("LASSO-MOD-117~2");
   scan();
   const auto subset = make_evidence();
   const RefinedHypothesis right = refine_fast(mission_, *subset, {off(0.005, 0.002), HypothesisScore()}, kAnyScore, *workspace_, work_);

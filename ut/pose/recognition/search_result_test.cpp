@@ -8,7 +8,7 @@ namespace lasso {
 namespace {
 
 TEST(SearchText, NamesOutcomesAndReasons) {
-  VERIFIES("LASSO-MOD-122~1");
+  VERIFIES("LASSO-MOD-122~2");
   EXPECT_STREQ(to_string(SearchOutcome::kNone), "none");
   EXPECT_STREQ(to_string(SearchOutcome::kAccepted), "accepted");
   EXPECT_STREQ(to_string(SearchOutcome::kAmbiguous), "ambiguous");

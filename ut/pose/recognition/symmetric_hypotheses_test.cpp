@@ -54,7 +54,7 @@ class TwinsTest : public test::WholeSearch {
 
 // Twins are settled in the first scan alone; in the second they are found where the best pose has come to.
 TEST_F(TwinsTest, OfTheBestPoseAsItStandsAreFoundInTheSecondScan) {
-  VERIFIES("LASSO-MOD-121~1 LASSO-MOD-120~1");
+  VERIFIES("LASSO-MOD-121~1 LASSO-MOD-120~2");
   const auto symmetries = mission_.search.symmetries;
   ASSERT_GE(symmetries.size(), 3u);
   mission_.search.symmetries = symmetries.first(0);
@@ -69,7 +69,7 @@ TEST_F(TwinsTest, OfTheBestPoseAsItStandsAreFoundInTheSecondScan) {
 }
 
 TEST_F(TwinsTest, AreFoundInTheFirstScan) {
-  VERIFIES("LASSO-MOD-121~1");
+  VERIFIES("LASSO-MOD-121~1 LASSO-SYS-024~1");
   search_->begin(limits_);
   ASSERT_EQ(search(), Status::kOk);
   EXPECT_EQ(result().outcome, SearchOutcome::kAmbiguous);
@@ -78,7 +78,7 @@ TEST_F(TwinsTest, AreFoundInTheFirstScan) {
 
 // A turn that is none of the target's symmetries leads nowhere: it is measured, and that is all.
 TEST_F(TwinsTest, ThatFitBadlyAreNoRivals) {
-  VERIFIES("LASSO-MOD-122~1");
+  VERIFIES("LASSO-MOD-122~2");
   NearSymmetry<FlightNumber> none{};
   for (int i = 0; i < 4; ++i) none.q[i] = FlightNumber::to<FlightNumber::Unit>(i == 3 ? 0.8 : i == 0 ? 0.6 : 0.0);
   const test::Generator random = random_;

@@ -180,7 +180,7 @@ TEST_F(AimTest, PlacesAreWhereTheUncertaintyIs) {
 
 // Where returns tell much, rays go to surfaces as well, and return.
 TEST_F(AimTest, SurfacesAreChosenWhereReturnsTellMore) {
-  VERIFIES("LASSO-SNS-014~2 LASSO-SNS-015~1");
+  VERIFIES("LASSO-SNS-014~2 LASSO-SNS-015~1 LASSO-MOD-151~2");
   parameters().sigma0_m = 0.5;
   aim();
   EXPECT_EQ(rays_at_contours(), 306u) << "returns tell next to nothing";

@@ -152,7 +152,7 @@ double mean_square_of_errors(bool told) {
 }
 
 TEST(FilterCommon, ErrorsAreWithinTheCovarianceWhereCommonErrorsAreTold) {
-  VERIFIES("LASSO-FLT-015~1 LASSO-FLT-005~1");
+  VERIFIES("LASSO-FLT-015~1");
   const double told = mean_square_of_errors(true);
   EXPECT_NEAR(told, 12, 4 * std::sqrt(2 * 12 / 60.0));
   EXPECT_GT(mean_square_of_errors(false), 2 * told) << "the same scans, taken for independent";

@@ -22,6 +22,12 @@ TEST(FilterTumbling, PrecessionAddsToTheDisturbanceWithTheSquareOfTheRate) {
   noise.precession = 0.25;
   ASSERT_EQ(predict_filter(precessing, precessing.t_us + 350'000, noise), Status::kOk);
   EXPECT_LT((calm.covariance - precessing.covariance).cwiseAbs().maxCoeff(), 1e-16);
+  FilterState resting = calm;
+  resting.rates.omega_radps.setZero();
+  FilterState without = resting;
+  ASSERT_EQ(predict_filter(resting, resting.t_us + 350'000, noise), Status::kOk);
+  ASSERT_EQ(predict_filter(without, without.t_us + 350'000, kNoise), Status::kOk);
+  EXPECT_EQ(resting.covariance, without.covariance) << "one at rest is disturbed by the other term alone";
 }
 
 // A free body by Euler's equations, with the inertia of a slender telescope: its angular velocity wanders though no torque acts.
