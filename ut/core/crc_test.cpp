@@ -106,7 +106,7 @@ TEST(Crc, CallsChainAtEveryCut) {
 }
 
 TEST(Crc, EverySingleAndDoubleFlipIsSeen) {
-  VERIFIES("LASSO-COR-003~1");
+  VERIFIES("LASSO-COR-003~2");
   test::Generator generator(3);
   auto bytes = random_bytes(generator, 24);
   const std::uint16_t good16 = crc16_ccitt(view(bytes));
@@ -128,7 +128,7 @@ TEST(Crc, EverySingleAndDoubleFlipIsSeen) {
 }
 
 TEST(Crc, EveryBurstUpToTheWidthIsSeen) {
-  VERIFIES("LASSO-COR-003~1");
+  VERIFIES("LASSO-COR-003~2");
   test::Generator generator(4);
   for (int trial = 0; trial < 20000; ++trial) {
     auto bytes = random_bytes(generator, 40);

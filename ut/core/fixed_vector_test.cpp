@@ -70,7 +70,7 @@ TEST(FixedVector, SpanShowsTheHeldElements) {
 }
 
 TEST(FixedVectorDeathTest, AnIndexPastTheHeldElementsIsAnInvariant) {
-  VERIFIES("LASSO-COR-008~1");
+  VERIFIES("LASSO-COR-008~2");
   FixedVector<int, 4> v;
   ASSERT_TRUE(v.push_back(1));
   const FixedVector<int, 4>& constant = v;

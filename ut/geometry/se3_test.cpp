@@ -108,7 +108,7 @@ TEST(PoseDifference, FindsTheRotationAndTranslationApplied) {
 }
 
 TEST(IsValid, RefusesWhatIsNoPose) {
-  VERIFIES("LASSO-GEO-015~1");
+  VERIFIES("LASSO-GEO-015~2");
   test::Generator generator(66);
   for (int i = 0; i < 1000; ++i) {
     Pose pose = random_pose(generator);
@@ -124,7 +124,7 @@ TEST(IsValid, RefusesWhatIsNoPose) {
 }
 
 TEST(IsValid, RefusesEachComponentThatIsNotFinite) {
-  VERIFIES("LASSO-GEO-015~1");
+  VERIFIES("LASSO-GEO-015~2");
   constexpr double kBad[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
                              -std::numeric_limits<double>::infinity()};
   for (const double bad : kBad) {

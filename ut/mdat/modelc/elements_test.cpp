@@ -24,7 +24,7 @@ Made elements_of(const Mesh& mesh, const LengthScale& scale) {
 }
 
 TEST(LengthScale, IsTheFinestThatHoldsTwiceTheReach) {
-  VERIFIES("LASSO-MDL-013~1");
+  VERIFIES("LASSO-MDL-013~2");
   for (const double reach : {0.4, 0.5001, 1.0, 1.3, 700.0, 4e6}) {
     const LengthScale scale(reach);
     EXPECT_LT(std::ldexp(2 * reach, scale.bits()), 0x1p31);
@@ -96,7 +96,7 @@ TEST(Elements, FlatModelsHaveTheZeroRecordOnly) {
 }
 
 TEST(Elements, RegionsExceedTheirPolygonsByLessThanTheRelaxationAtRightAngles) {
-  VERIFIES("LASSO-MDL-005~1");
+  VERIFIES("LASSO-MDL-005~2");
   Mesh mesh = shapes::box({0, 0, 0}, {0.4, 0.5, 0.6});
   shapes::move(mesh, shapes::generic_turn(), {0.1, -0.2, 0.05});
   const Made made = elements_of(mesh, LengthScale(1.0));

@@ -47,7 +47,7 @@ void expect_in_planes(const DecodedEdge& e) {
 }
 
 TEST(SilhouetteEdges, ABoxHasItsTwelve) {
-  VERIFIES("LASSO-MDL-014~1");
+  VERIFIES("LASSO-MDL-014~2");
   Mesh mesh = shapes::box({0, 0, 0}, {1, 2, 0.5});
   shapes::move(mesh, shapes::generic_turn(), {0.1, 0.2, 0.3});
   const auto edges = edges_of(mesh);
@@ -63,7 +63,7 @@ TEST(SilhouetteEdges, ABoxHasItsTwelve) {
 }
 
 TEST(SilhouetteEdges, BoundariesHaveOpposedPlanes) {
-  VERIFIES("LASSO-MDL-014~1");
+  VERIFIES("LASSO-MDL-014~2");
   const auto edges = edges_of(shapes::sheet(1, 3));
   ASSERT_EQ(edges.size(), 12u);  // the outline; inner edges are coplanar
   for (const DecodedEdge& e : edges) {
@@ -75,7 +75,7 @@ TEST(SilhouetteEdges, BoundariesHaveOpposedPlanes) {
 }
 
 TEST(SilhouetteEdges, EverySphereEdgeIsThereOnce) {
-  VERIFIES("LASSO-MDL-014~1");
+  VERIFIES("LASSO-MDL-014~2");
   const auto edges = edges_of(shapes::sphere(0.5, 8, 12));
   EXPECT_EQ(edges.size(), 7u * 12 + 8u * 12);  // parallels and meridians; quads of a sphere's grid are planar
   for (const DecodedEdge& e : edges) {
@@ -86,7 +86,7 @@ TEST(SilhouetteEdges, EverySphereEdgeIsThereOnce) {
 }
 
 TEST(SilhouetteEdges, BodiesThatTouchInAnEdgeKeepOneEdgeEach) {
-  VERIFIES("LASSO-MDL-014~1");
+  VERIFIES("LASSO-MDL-014~2");
   Mesh mesh = shapes::box({0, 0, 0}, {1, 1, 1});
   shapes::append(mesh, shapes::box({1, 1, 0}, {2, 2, 1}));
   const auto edges = edges_of(mesh);
@@ -103,7 +103,7 @@ TEST(SilhouetteEdges, BodiesThatTouchInAnEdgeKeepOneEdgeEach) {
 }
 
 TEST(SilhouetteEdges, AVertexInTheMiddleOfAFlatEdgeMakesNoBoundary) {
-  VERIFIES("LASSO-MDL-014~1");
+  VERIFIES("LASSO-MDL-014~2");
   Mesh mesh;  // a flat square whose lower half has a vertex more, joined by a triangle without area
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}, {0.5, 1, 0}, {0.5, -1, 0}};
   mesh.triangles = {{0, 1, 3}, {0, 2, 1}, {0, 4, 2}, {2, 4, 1}};
@@ -111,7 +111,7 @@ TEST(SilhouetteEdges, AVertexInTheMiddleOfAFlatEdgeMakesNoBoundary) {
 }
 
 TEST(SilhouetteEdges, ClashingWindingsTurnTheSecondPlaneRound) {
-  VERIFIES("LASSO-MDL-014~1");
+  VERIFIES("LASSO-MDL-014~2");
   Mesh roof;
   roof.vertices = {{0, 0, 0}, {1, 0, 0}, {0.5, 1, -1}, {0.5, -1, -1}};
   roof.triangles = {{0, 1, 2}, {0, 1, 3}};  // one up, one down

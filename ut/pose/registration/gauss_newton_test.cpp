@@ -147,7 +147,7 @@ Pass equal_rows(const Vec3& m, const Vec3& n, double residual, int count) {
 }
 
 TEST_F(GaussNewtonTest, DirectionsThatNoRaySeesStayWhereTheyAre) {
-  VERIFIES("LASSO-REG-008~1");
+  VERIFIES("LASSO-REG-008~2");
   scan();
   const Vec3 n(0, 0, 1);
   Pass pass = equal_rows(Vec3(0.1, 0.2, -0.1), n, 2e-3, 100);
@@ -163,7 +163,7 @@ TEST_F(GaussNewtonTest, DirectionsThatNoRaySeesStayWhereTheyAre) {
 }
 
 TEST_F(GaussNewtonTest, CutsAStepToTheLongestOneInItsDirection) {
-  VERIFIES("LASSO-REG-016~1");
+  VERIFIES("LASSO-REG-016~2");
   scan();
   const Pose start = truth();
   const auto step_of = [&](double longest_m, Pose& pose) {
@@ -213,7 +213,7 @@ TEST_F(GaussNewtonTest, SaysWhenThereIsNoSolution) {
 }
 
 TEST_F(GaussNewtonTest, SettingsAreTheMissions) {
-  VERIFIES("LASSO-REG-003~1");
+  VERIFIES("LASSO-REG-003~2");
   scan();
   parameters().kernel_width = 7;
   parameters().incidence_max_rad = 1.1;
@@ -227,7 +227,7 @@ TEST_F(GaussNewtonTest, SettingsAreTheMissions) {
 
 // The largest that a mission may say.
 TEST_F(GaussNewtonTest, NoiseOfAPoorSurfaceAddsUp) {
-  VERIFIES("LASSO-REG-003~1");
+  VERIFIES("LASSO-REG-003~2");
   scan();
   parameters().surface_sigma_m = 1;
   const MatchSettings<N> s = settings();

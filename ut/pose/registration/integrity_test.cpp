@@ -31,7 +31,7 @@ class WeakDirectionsTest : public test::PoseFixture {
 };
 
 TEST_F(WeakDirectionsTest, AreThoseOfTheCovariance) {
-  VERIFIES("LASSO-REG-008~1");
+  VERIFIES("LASSO-REG-008~2");
   parameters().sigma_position_max_m = 0.05;
   parameters().sigma_attitude_max_rad = 3.0;
   for (int i = 0; i < 20; ++i) {
@@ -47,7 +47,7 @@ TEST_F(WeakDirectionsTest, AreThoseOfTheCovariance) {
 }
 
 TEST_F(WeakDirectionsTest, AreMeasuredByTheTighterLimit) {
-  VERIFIES("LASSO-REG-008~1");
+  VERIFIES("LASSO-REG-008~2");
   parameters().sigma_position_max_m = 0.05;
   parameters().sigma_attitude_max_rad = 0.01 / mission_.radius_m;
   Vec6 sigmas;
@@ -59,7 +59,7 @@ TEST_F(WeakDirectionsTest, AreMeasuredByTheTighterLimit) {
 }
 
 TEST_F(WeakDirectionsTest, ThereAreNoneInAGoodPose) {
-  VERIFIES("LASSO-REG-008~1");
+  VERIFIES("LASSO-REG-008~2");
   make_covariance(Vec6::Constant(1e-4));
   find_weak_directions(mission_, result_);
   EXPECT_EQ(result_.weak, 0);

@@ -128,7 +128,7 @@ class WidenTest : public test::BeamTest {
 };
 
 TEST_F(WidenTest, AnHonestSigmaIsDoubledOnceAtMost) {
-  VERIFIES("LASSO-REG-025~2");
+  VERIFIES("LASSO-REG-025~3");
   scan();
   const HitSolution hits = registered(truth());
   Directions unobservable;
@@ -143,7 +143,7 @@ TEST_F(WidenTest, AnHonestSigmaIsDoubledOnceAtMost) {
 
 // The cost rises with the square: a sigma that is short by f > 5/4 is doubled until it is short by less.
 TEST_F(WidenTest, ASigmaThatIsTooSmallIsDoubledUntilTheCostRises) {
-  VERIFIES("LASSO-REG-025~2");
+  VERIFIES("LASSO-REG-025~3");
   scan();
   const HitSolution hits = registered(truth());
   const Mat6 covariance = honest(hits);
@@ -159,7 +159,7 @@ TEST_F(WidenTest, ASigmaThatIsTooSmallIsDoubledUntilTheCostRises) {
 }
 
 TEST_F(WidenTest, AnAxisAlongWhichNothingRisesIsUnseen) {
-  VERIFIES("LASSO-REG-025~2");
+  VERIFIES("LASSO-REG-025~3");
   scan();
   HitSolution hits = registered(truth());
   hits.usable = 0;  // no return counts: the cost is the same everywhere
@@ -171,7 +171,7 @@ TEST_F(WidenTest, AnAxisAlongWhichNothingRisesIsUnseen) {
 }
 
 TEST_F(WidenTest, AxesThatAreCertainAreNotTried) {
-  VERIFIES("LASSO-REG-025~2");
+  VERIFIES("LASSO-REG-025~3");
   scan();
   HitSolution hits = registered(truth());
   hits.usable = 0;
