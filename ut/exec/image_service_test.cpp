@@ -100,6 +100,25 @@ TEST(ImageTrial, AStartThatIsCheckedSaysNothingOfTheImage) {
   EXPECT_EQ(trial.verdict(), TrialVerdict::kPassed);
 }
 
+TEST(ImageTrial, SoManyScansHaveToGiveSoManyValidPoses) {
+  VERIFIES("LASSO-IMG-014~2");
+  for (const bool third : {false, true}) {
+    ImageTrial trial;
+    trial.begin(10, 3);
+    Registration registration;
+    for (std::uint32_t scan = 1; scan < 10; ++scan) {
+      registration.reason = scan <= 2 ? PoseReason::kValid : PoseReason::kModelMismatch;
+      trial.note(registration, TrackingMode::kTracking);
+      EXPECT_EQ(trial.verdict(), TrialVerdict::kOpen) << scan;
+      registration.reason = PoseReason::kNoScan;  // says nothing of the image
+      trial.note(registration, TrackingMode::kTracking);
+    }
+    registration.reason = third ? PoseReason::kValid : PoseReason::kModelMismatch;
+    trial.note(registration, TrackingMode::kTracking);
+    EXPECT_EQ(trial.verdict(), third ? TrialVerdict::kPassed : TrialVerdict::kFailed);
+  }
+}
+
 // By itself, within the scans of the trial; the track is that of before.
 TEST_F(ImageServiceTest, AnImageThatFailsItsFirstScansIsTakenBack) {
   VERIFIES("LASSO-IMG-014~2");

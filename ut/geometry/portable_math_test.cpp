@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -150,6 +152,11 @@ TEST(Exponential, SaturatesAtBothEnds) {
   EXPECT_EQ(exponential(-708.4), 0.0);
   EXPECT_EQ(exponential(-kInf), 0.0);
   EXPECT_GE(exponential(-708.396), kMin);
+  // ln of the largest number is 709.782712893..., of the smallest normal one -708.396418532...
+  EXPECT_LT(exponential(709.782712893), kInf);
+  EXPECT_EQ(exponential(709.782712894), kInf);
+  EXPECT_GE(exponential(-708.396418532), kMin);
+  EXPECT_EQ(exponential(-708.396418533), 0.0);
   EXPECT_TRUE(is_nan(exponential(kNan)));
 }
 
@@ -170,6 +177,25 @@ TEST(NormalCumulative, EndsSymmetryAndOrder) {
     ASSERT_LE(phi, 1.0) << z;
     before = phi;
   }
+}
+
+TEST(PortableMath, WhatHasNoAnswerIsNanAndNothingElse) {
+  VERIFIES("LASSO-GEO-006~2");
+  errno = 0;
+  for (const double x : {kNan, -kNan}) {
+    for (const double value : {square_root(x), sin_cos(x).sin, sin_cos(x).cos, tangent(x), arc_tangent2(x, 1), arc_tangent2(1, x),
+                               arc_sine(x), exponential(x), normal_density(x), normal_cumulative(x)}) {
+      EXPECT_TRUE(is_nan(value));
+    }
+  }
+  for (const double sign : {-1.0, 1.0}) {
+    for (const double value : {square_root(-kSubnormal), sin_cos(sign * 1.0000001e6).sin, sin_cos(sign * 1.0000001e6).cos,
+                               tangent(sign * 1.0000001e6), arc_sine(sign * 1.0000000000000002)}) {
+      EXPECT_TRUE(is_nan(value)) << sign;
+    }
+    EXPECT_FALSE(is_nan(sin_cos(sign * 1e6).sin) || is_nan(tangent(sign * 1e6)) || is_nan(arc_sine(sign))) << sign;
+  }
+  EXPECT_EQ(errno, 0);
 }
 
 TEST(Clamp, StaysWithinItsEndsAndKeepsNan) {
@@ -243,6 +269,7 @@ TEST(SinCos, WithinTheBound) {
     worst = std::max(worst, sin_cos_error(generator.uniform(-1e6, 1e6)));
     worst = std::max(worst, sin_cos_error(generator.uniform(-7, 7)));
   }
+  worst = std::max({worst, sin_cos_error(1e6), sin_cos_error(-1e6)});                                // the domain's ends
   for (int n = -636619; n <= 636619; n += 7) worst = std::max(worst, sin_cos_error(n * (kPi / 2)));  // next to zeros
   EXPECT_LE(worst, 1e-15);
   RecordProperty("worst_error", std::to_string(worst * 1e17) + "e-17");

@@ -68,7 +68,7 @@ TEST_F(StartsTest, WhatIsNotANumberIsRefused) {
 }
 
 TEST_F(StartsTest, WhatCannotBeIsRefusedByItsName) {
-  VERIFIES("LASSO-MOD-134~2 LASSO-MOD-182~1");
+  VERIFIES("LASSO-MOD-134~2 LASSO-MOD-182~1 LASSO-REG-019~1");
   const StartOffer good = offer_;
   offer_.T_sensor_target.q.w() += 0.1;
   EXPECT_EQ(try_offer(), StartRefusal::kNotUnit);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cfg/capacities.hpp"
 #include "mdat/modelc/repair.hpp"
 #include "ut/mdat/modelc/meshes.hpp"
 #include "ut/support/verifies.hpp"
@@ -108,6 +109,49 @@ TEST(SilhouetteEdges, AVertexInTheMiddleOfAFlatEdgeMakesNoBoundary) {
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}, {0.5, 1, 0}, {0.5, -1, 0}};
   mesh.triangles = {{0, 1, 3}, {0, 2, 1}, {0, 4, 2}, {2, 4, 1}};
   EXPECT_EQ(edges_of(mesh).size(), 4u);
+}
+
+// Two faces that meet in an edge: as a roof, as a valley, and as one that is seen from below, too.
+TEST(SilhouetteEdges, AConcaveEdgeIsThereWhereItsFacesAreSeenFromBothSides) {
+  VERIFIES("LASSO-MDL-014~2");
+  const auto meeting = [](double rise, bool two_sided) {
+    Mesh mesh;
+    mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0.5, 1, rise}, {0.5, -1, rise}};
+    mesh.triangles = {{0, 1, 2}, {1, 0, 3}};
+    if (two_sided) mesh.triangles.insert(mesh.triangles.end(), {{0, 2, 1}, {1, 3, 0}});
+    int inner = 0;
+    for (const DecodedEdge& e : edges_of(mesh)) inner += e.flags == 0 ? 1 : 0;
+    return inner;
+  };
+  EXPECT_EQ(meeting(-1, false), 1);
+  EXPECT_EQ(meeting(1, false), 0) << "whoever saw one of its faces from behind would look through the solid";
+  EXPECT_EQ(meeting(1, true), 1);
+  EXPECT_EQ(meeting(-1.5e-4 / 2, false), 0) << "0.15 mrad are as flat";
+  EXPECT_EQ(meeting(-2.5e-4 / 2, false), 1);
+}
+
+// As many boundaries of one face along a line.
+TEST(SilhouetteEdges, MoreThanTheFlightComponentHoldsAreRefused) {
+  VERIFIES("LASSO-MDL-008~1");
+  const auto edges_found = [](std::uint32_t count) {
+    Surface surface;
+    std::vector<EdgeUse> uses(count);
+    for (std::uint32_t i = 0; i <= count; ++i) surface.vertices.emplace_back(1e-5 * i, 0, 0);
+    for (std::uint32_t i = 0; i < count; ++i) uses[i] = {i, i + 1, 0, 0, true};
+    Polygons polygons;
+    polygons.of_triangle = {0};
+    std::vector<Element> elements(1);
+    elements[0].n = Vec3d::UnitZ();
+    CompileReport report;
+    try {
+      make_edges(surface, uses, polygons, elements, LengthScale(4), report);
+    } catch (const CompileError& error) {
+      return std::string(error.what());
+    }
+    return std::to_string(report.edges);
+  };
+  EXPECT_EQ(edges_found(kMaxEdges), std::to_string(kMaxEdges));
+  EXPECT_EQ(edges_found(kMaxEdges + 1).find("the model has 131073 edges; the limit is 131072"), 0U);
 }
 
 TEST(SilhouetteEdges, ClashingWindingsTurnTheSecondPlaneRound) {

@@ -160,6 +160,25 @@ TEST(Judge, NoiseIsTheStatedOneTimesItsTolerance) {
   EXPECT_LE(refused(1.2 * p.noise_tolerance, 0.44 * p.noise_tolerance * p.noise_tolerance), 12) << "the target may move";
 }
 
+TEST(Judge, TheLimitOfTheResidualsIsWhereTheEquationHasIt) {
+  VERIFIES("LASSO-REG-024~1");
+  MissionParameters p = preset_parameters();
+  Registration r = good_result();
+  for (const std::uint16_t inliers : {std::uint16_t{60}, std::uint16_t{390}}) {
+    r.inliers = inliers;
+    for (const double motion : {0.0, 0.7}) {
+      for (const double tolerance : {1.0, 1.5, 4.0}) {
+        p.noise_tolerance = tolerance;
+        const double limit = (1 + 3 * std::sqrt(2.0 / (inliers - 6))) * (tolerance * tolerance + motion);
+        r.normalized_residual = std::sqrt(limit * (1 - 1e-9));
+        EXPECT_EQ(judge(p, r, motion), PoseReason::kValid);
+        r.normalized_residual = std::sqrt(limit * (1 + 1e-9));
+        EXPECT_EQ(judge(p, r, motion), PoseReason::kHighResidual);
+      }
+    }
+  }
+}
+
 TEST(Judge, NothingRunIsNotValid) {
   VERIFIES("LASSO-REG-007~2");
   EXPECT_EQ(judge(preset_parameters(), Registration(), 0), PoseReason::kTooFewReturns);
