@@ -212,7 +212,7 @@ void write_changed(const WorkFolder& work, const std::string& folder, const Chan
 
 // What the sensor at (0.5, -0.3, 0.2) of a frame with axes forward, right, down writes of returns there; of misses their directions.
 TEST_F(ReplayForms, TellsHowManyRaysContradict) {
-  VERIFIES("LASSO-REG-029~1");
+  VERIFIES("LASSO-REG-029~2");
   work.write_mission({});
   const std::string scans = "replay --force missions/test.toml --scans rec/4m/scans --initial rec/4m/poses.csv -o out.csv";
   const Answer answer = work.mdat(scans);  // a fifth of the rays drops out, which the mission does not state

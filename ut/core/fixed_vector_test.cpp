@@ -24,7 +24,7 @@ TEST(FixedVector, RefusesWhatDoesNotFitAndChangesNothing) {
 }
 
 TEST(FixedVector, BehavesAsAVectorAndKeepsItsPeak) {
-  VERIFIES("LASSO-COR-006~1 LASSO-COR-007~1");
+  VERIFIES("LASSO-COR-006~1 LASSO-COR-007~2");
   test::Generator generator(21);
   FixedVector<std::uint64_t, 17> v;
   std::vector<std::uint64_t> model;
@@ -47,7 +47,7 @@ TEST(FixedVector, BehavesAsAVectorAndKeepsItsPeak) {
 }
 
 TEST(FixedVector, PeakOutlivesClear) {
-  VERIFIES("LASSO-COR-007~1");
+  VERIFIES("LASSO-COR-007~2");
   FixedVector<int, 8> v;
   for (int i = 0; i < 5; ++i) ASSERT_TRUE(v.push_back(i));
   v.clear();
@@ -70,12 +70,17 @@ TEST(FixedVector, SpanShowsTheHeldElements) {
 }
 
 TEST(FixedVectorDeathTest, AnIndexPastTheHeldElementsIsAnInvariant) {
-  VERIFIES("LASSO-COR-008~1");
+  VERIFIES("LASSO-COR-008~2");
   FixedVector<int, 4> v;
   ASSERT_TRUE(v.push_back(1));
   const FixedVector<int, 4>& constant = v;
   EXPECT_DEATH(v[1] = 0, "invariant failed: FixedVector index");
   EXPECT_DEATH(static_cast<void>(constant[1]), "invariant failed: FixedVector index");
+  EXPECT_DEATH(v.shrink(2), "invariant failed: FixedVector shrink");
+  v.shrink(1);
+  EXPECT_EQ(v.size(), 1U);
+  v.shrink(0);
+  EXPECT_DEATH(static_cast<void>(v[0]), "invariant failed: FixedVector index");
 }
 
 }  // namespace

@@ -13,6 +13,7 @@ namespace {
 TEST(Invariant, NothingHappensWhereItHolds) { invariant(true, "never said"); }
 
 TEST(InvariantDeathTest, OutsideOfAComponentTheFailureNamesNone) {
+  VERIFIES("LASSO-COR-010~1");
   EXPECT_DEATH(invariant(false, "of nobody"), "failed: of nobody, of APID 0,");
 }
 
@@ -32,6 +33,7 @@ TEST(InvariantDeathTest, TheFailureNamesTheComponentWhoseCodeRan) {
 
 #ifdef __linux__
 TEST(InvariantDeathTest, AnotherThreadRunsNobodysCode) {
+  VERIFIES("LASSO-COR-010~1");
   const Identity identity;
   const Running running(identity);
   EXPECT_DEATH(std::thread([] { invariant(false, "elsewhere"); }).join(), "elsewhere, of APID 0,");

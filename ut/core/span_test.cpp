@@ -11,7 +11,7 @@ namespace lasso {
 namespace {
 
 TEST(Span, ViewsAnArrayWithoutCopying) {
-  VERIFIES("LASSO-COR-008~1");
+  VERIFIES("LASSO-COR-008~2");
   int a[5] = {1, 2, 3, 4, 5};
   const Span<int> s(a);
   s[2] = 30;
@@ -25,7 +25,7 @@ TEST(Span, ViewsAnArrayWithoutCopying) {
 }
 
 TEST(Span, PartsAreExact) {
-  VERIFIES("LASSO-COR-008~1");
+  VERIFIES("LASSO-COR-008~2");
   int a[6] = {0, 1, 2, 3, 4, 5};
   const Span<int> s(a);
   for (std::size_t offset = 0; offset <= 6; ++offset) {
@@ -39,7 +39,7 @@ TEST(Span, PartsAreExact) {
 }
 
 TEST(SpanDeathTest, AccessOutsideIsAnInvariant) {
-  VERIFIES("LASSO-COR-008~1");
+  VERIFIES("LASSO-COR-008~2");
   int a[4] = {};
   const Span<int> s(a);
   EXPECT_DEATH(static_cast<void>(s[4]), "invariant failed: Span index");

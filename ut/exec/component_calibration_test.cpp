@@ -91,7 +91,7 @@ TEST_F(ComponentCalibration, ACalibrationThatDecaysIsNotBelieved) {
 
 // Its scans are lost as another sensor's: it has failed its trial.
 TEST_F(ComponentCalibration, AnImageForAnotherCameraIsTakenBack) {
-  VERIFIES("LASSO-IMG-014~1 LASSO-LCS-015~1");
+  VERIFIES("LASSO-IMG-014~2 LASSO-LCS-015~1");
   scene_->sensor.own_serial = 31;
   scene_->begin(calibrated_image({31}));
   EXPECT_TRUE(all_valid(scene_->run_frames(10)));

@@ -13,7 +13,7 @@ using ComponentScrub = test::MemoryFixture;
 
 // Flips while tracking: reported within a period of the scrub, and poses go on.
 TEST_F(ComponentScrub, FlipsAreToldAndRepairedWhileTracking) {
-  VERIFIES("LASSO-IMG-016~1 LASSO-IMG-017~1 LASSO-HLT-010~3");
+  VERIFIES("LASSO-IMG-016~2 LASSO-IMG-017~1 LASSO-HLT-010~3");
   scene_->begin(first_image());
   scene_->run_frames(5);
   const std::vector<std::uint64_t> right = scene_->buffers[0];
@@ -80,7 +80,7 @@ TEST_F(ComponentScrub, AFlipOfWhichImageIsActiveIsToldAndPosesGoOn) {
 
 // Without the store nothing can be repaired: what is in use makes safe, what is not is refused.
 TEST_F(ComponentScrub, AnImageThatCannotBeRepairedMakesSafe) {
-  VERIFIES("LASSO-IMG-016~1 LASSO-HLT-002~1");
+  VERIFIES("LASSO-IMG-016~2 LASSO-HLT-002~1");
   scene_->begin(first_image());
   scene_->run_frames(5);
   scene_->upload(better_image());

@@ -187,7 +187,7 @@ TEST_F(ModeManagerAlone, AnInterruptedTrackHasNoErrorsInCommonWithAnotherSensor)
 }
 
 TEST_F(ModeManagerAlone, ATrackThatIsRestoredHasNoErrorsInCommonWithAnotherSensor) {
-  VERIFIES("LASSO-SNS-046~1 LASSO-IMG-014~1");
+  VERIFIES("LASSO-SNS-046~1 LASSO-IMG-014~2");
   track();
   modes.take_over_track(true, true);
   modes.use_sensor(kSecond);
@@ -200,7 +200,7 @@ TEST_F(ModeManagerAlone, ATrackThatIsRestoredHasNoErrorsInCommonWithAnotherSenso
 
 // In bearing there is no attitude: the remembered one is none of it.
 TEST_F(ModeManagerAlone, ABearingStaysWithoutAPoseWhenAnImageIsTakenBack) {
-  VERIFIES("LASSO-IMG-014~1");
+  VERIFIES("LASSO-IMG-014~2");
   for (const bool bearing : {false, true}) {
     track();
     modes.take_over_track(true, true);

@@ -36,7 +36,7 @@ TEST_F(KeeperTest, StartsWithTheImageThatWasConfirmedLast) {
 }
 
 TEST_F(KeeperTest, AnImageInTheStoreThatIsWrongGivesWayToTheOneBefore) {
-  VERIFIES("LASSO-IMG-015~1 LASSO-IMG-016~1");
+  VERIFIES("LASSO-IMG-015~1 LASSO-IMG-016~2");
   ASSERT_EQ(start().status, Status::kOk);
   make_ready(new_image());
   keeper_->swap();
@@ -197,7 +197,7 @@ TEST_F(KeeperTest, AnImageThatCannotBeReadIsNotStartedWith) {
 }
 
 TEST_F(KeeperTest, AnImageBeforeThatHasDecayedIsNotRolledBackTo) {
-  VERIFIES("LASSO-IMG-016~1");
+  VERIFIES("LASSO-IMG-016~2");
   ASSERT_EQ(start().status, Status::kOk);
   make_ready(new_image());
   keeper_->swap();
@@ -212,7 +212,7 @@ TEST_F(KeeperTest, AnImageBeforeThatHasDecayedIsNotRolledBackTo) {
 
 // The store holds two that were never active one after the other.
 TEST_F(KeeperTest, AnImageOfAnotherPeriodIsNotRolledBackTo) {
-  VERIFIES("LASSO-IMG-016~1");
+  VERIFIES("LASSO-IMG-016~2");
   ASSERT_EQ(start().status, Status::kOk);
   make_ready(new_image());
   keeper_->swap();

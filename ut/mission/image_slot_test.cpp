@@ -82,7 +82,7 @@ TEST_F(ImageSlotTest, NothingIsSealedBeforeItIsReady) {
 
 // Any piece of what was received becomes what lies in memory.
 TEST_F(ImageSlotTest, APieceThatIsReceivedAgainPutsTheImageRight) {
-  VERIFIES("LASSO-IMG-016~1");
+  VERIFIES("LASSO-IMG-016~2");
   slot_->run(1);
   const auto right = image_.storage;
   for (std::size_t at = 0; at < image_.size; at += 252) {
@@ -97,7 +97,7 @@ TEST_F(ImageSlotTest, APieceThatIsReceivedAgainPutsTheImageRight) {
 }
 
 TEST_F(ImageSlotTest, ViewsAreMadeAgainForEachSensor) {
-  VERIFIES("LASSO-IMG-016~1");
+  VERIFIES("LASSO-IMG-016~2");
   test::BoxTables tables = test::make_box_tables(test::BoxModel{});
   test::append_sensor(preset_parameters(), tables[test::kSensorsTable]);
   take(test::make_image(preset_parameters(), tables));

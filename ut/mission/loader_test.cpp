@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 
@@ -108,6 +109,23 @@ TEST_F(LoaderTest, RefusesAFlippedBitAnywhere) {
     seed = seed * 1664525u + 1013904223u;
     const std::size_t byte = (seed >> 4) % image_.size;
     const auto mask = static_cast<std::uint8_t>(1u << (seed & 7));
+    image_.data()[byte] = static_cast<std::uint8_t>(image_.data()[byte] ^ mask);
+    EXPECT_NE(load().status, Status::kOk) << "byte " << byte;
+    image_.data()[byte] = static_cast<std::uint8_t>(image_.data()[byte] ^ mask);
+  }
+  EXPECT_EQ(load().status, Status::kOk);
+}
+
+// Of an image of a few coarse cells: header and directory, which have words that nobody reads, then some of each table, and the trailer.
+TEST_F(LoaderTest, RefusesAFlippedBitOfEachByteOfHeaderDirectoryAndTrailer) {
+  VERIFIES("LASSO-IMG-003~1");
+  test::BoxModel coarse;
+  coarse.cell_m = 0.1;
+  image_ = test::make_box_image(preset_parameters(), coarse);
+  const std::size_t directory = 4 * (kImageHeaderWords + kLeastTables * kDirectoryEntryWords);
+  const std::size_t trailer = image_.size - 4;
+  for (std::size_t byte = 0; byte < image_.size; byte = byte < directory || byte >= trailer ? byte + 1 : std::min(byte + 199, trailer)) {
+    const auto mask = static_cast<std::uint8_t>(1U << byte % 8);
     image_.data()[byte] = static_cast<std::uint8_t>(image_.data()[byte] ^ mask);
     EXPECT_NE(load().status, Status::kOk) << "byte " << byte;
     image_.data()[byte] = static_cast<std::uint8_t>(image_.data()[byte] ^ mask);

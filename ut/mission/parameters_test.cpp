@@ -31,6 +31,7 @@ TEST(Parameters, EveryRowIsOfItsOwnAndComplete) {
     EXPECT_LE(row.minimum, row.preset) << row.key;
     EXPECT_LE(row.preset, row.maximum) << row.key;
     EXPECT_GT(std::strlen(row.meaning), 10u) << row.key;
+    EXPECT_STRNE(row.unit, "") << row.key;
     EXPECT_EQ(row.kind == ParameterKind::kChoice, row.choices[0] != '\0') << row.key;
     marks.*row.member = ++mark;
   }

@@ -69,7 +69,7 @@ TEST_F(StartsTest, WhatIsNotANumberIsRefused) {
 }
 
 TEST_F(StartsTest, WhatCannotBeIsRefusedByItsName) {
-  VERIFIES("LASSO-MOD-134~3 LASSO-MOD-182~2 LASSO-MOD-008~2 LASSO-MOD-006~2");
+  VERIFIES("LASSO-MOD-134~3 LASSO-MOD-182~2 LASSO-MOD-008~2 LASSO-MOD-006~2 LASSO-REG-019~1");
   const StartOffer good = offer_;
   offer_.T_sensor_target.q.w() += 0.1;
   EXPECT_EQ(try_offer(), StartRefusal::kNotUnit);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cfg/capacities.hpp"
 #include "mdat/modelc/repair.hpp"
 #include "ut/mdat/modelc/meshes.hpp"
 #include "ut/support/verifies.hpp"
@@ -24,7 +25,7 @@ Made elements_of(const Mesh& mesh, const LengthScale& scale) {
 }
 
 TEST(LengthScale, IsTheFinestThatHoldsTwiceTheReach) {
-  VERIFIES("LASSO-MDL-013~1");
+  VERIFIES("LASSO-MDL-013~2");
   for (const double reach : {0.4, 0.5001, 1.0, 1.3, 700.0, 4e6}) {
     const LengthScale scale(reach);
     EXPECT_LT(std::ldexp(2 * reach, scale.bits()), 0x1p31);
@@ -53,7 +54,7 @@ Vec3d normal_at(const std::vector<std::uint32_t>& words, std::uint32_t record, c
 }
 
 TEST(Elements, CurvatureGivesTheCornerNormalsOfTriangles) {
-  VERIFIES("LASSO-MDL-012~1");
+  VERIFIES("LASSO-MDL-012~2");
   const LengthScale scale(1.0);
   Mesh mesh = shapes::sphere(0.5, 10, 14);
   Random random(4);
@@ -72,7 +73,7 @@ TEST(Elements, CurvatureGivesTheCornerNormalsOfTriangles) {
 }
 
 TEST(Elements, CurvatureOfCylinderFacetsIsRadialAlongTheFacet) {
-  VERIFIES("LASSO-MDL-012~1");
+  VERIFIES("LASSO-MDL-012~2");
   const LengthScale scale(1.0);
   const Made made = elements_of(shapes::cylinder(0.3, 0.5, 36), scale);
   EXPECT_EQ(made.report.curved_elements, 36u);
@@ -89,14 +90,25 @@ TEST(Elements, CurvatureOfCylinderFacetsIsRadialAlongTheFacet) {
 }
 
 TEST(Elements, FlatModelsHaveTheZeroRecordOnly) {
-  VERIFIES("LASSO-MDL-012~1");
+  VERIFIES("LASSO-MDL-012~2");
   const Made made = elements_of(shapes::box({0, 0, 0}, {0.4, 0.5, 0.6}), LengthScale(1.0));
   EXPECT_EQ(made.set.curvature_words, std::vector<std::uint32_t>(kCurvatureWords, 0));
   EXPECT_EQ(made.report.quads, 6u);
 }
 
+// Both faces of a roof differ from the mean of their normals by half of its bend.
+TEST(Elements, AreFlatWhereTheirCornerNormalsHardlyDiffer) {
+  VERIFIES("LASSO-MDL-012~2");
+  for (const double half_bend : {0.95e-4, 1.05e-4}) {
+    Mesh roof;
+    roof.vertices = {{0, 0, 0}, {1, 0, 0}, {0.5, 1, -half_bend}, {0.5, -1, -half_bend}};
+    roof.triangles = {{0, 1, 2}, {1, 0, 3}};
+    EXPECT_EQ(elements_of(roof, LengthScale(1.0)).report.curved_elements, half_bend > 1e-4 ? 2u : 0u);
+  }
+}
+
 TEST(Elements, RegionsExceedTheirPolygonsByLessThanTheRelaxationAtRightAngles) {
-  VERIFIES("LASSO-MDL-005~1");
+  VERIFIES("LASSO-MDL-005~2");
   Mesh mesh = shapes::box({0, 0, 0}, {0.4, 0.5, 0.6});
   shapes::move(mesh, shapes::generic_turn(), {0.1, -0.2, 0.05});
   const Made made = elements_of(mesh, LengthScale(1.0));
@@ -106,6 +118,45 @@ TEST(Elements, RegionsExceedTheirPolygonsByLessThanTheRelaxationAtRightAngles) {
       EXPECT_LT((e.outline[i] - e.corners[i]).norm(), 3e-7);
       for (std::size_t k = 0; k < 4; ++k) EXPECT_GE(e.m[k].dot(e.corners[i]), e.c[k]);
     }
+  }
+}
+
+// A region's corner lies beyond the polygon's by the relaxation over the sine of half the angle: needles reach far.
+TEST(Elements, RegionsExceedTheirPolygonsTheMoreTheSharperACornerIs) {
+  VERIFIES("LASSO-MDL-005~2");
+  Mesh mesh = shapes::soup(200, 1, 11);
+  for (const double width : {0.3, 0.06, 0.02, 2e-3, 2e-4}) {
+    const auto first = shapes::u32(mesh.vertices.size());
+    for (const Vec3d& corner : {Vec3d(0, 0, 0), Vec3d(1, 0, 0), Vec3d(1, width, 0)}) mesh.vertices.push_back(corner);
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  const Made made = elements_of(mesh, LengthScale(2.0));
+  CompileReport report;
+  const double extent = repair_mesh(mesh, 0, report).extent;
+  int sharp = 0;
+  for (const Element& e : made.set.list) {
+    const auto sides = static_cast<std::size_t>(e.sides);
+    for (std::size_t i = 0; i < sides; ++i) {
+      const Vec3d& at = e.corners[i];
+      const Vec3d a = (e.corners[(i + 1) % sides] - at).normalized(), b = (e.corners[(i + sides - 1) % sides] - at).normalized();
+      const double half = std::atan2(a.cross(b).norm(), a.dot(b)) / 2;
+      const bool is_sharp = 2 * half < 3 * std::numbers::pi / 180;
+      sharp += is_sharp ? 1 : 0;
+      EXPECT_LT((e.outline[i] - at).norm(), extent * (is_sharp ? 2.5e-7 / std::sin(half) : 1e-5)) << half;
+    }
+  }
+  EXPECT_GE(sharp, 3);
+}
+
+TEST(Elements, RefuseMoreThanTheFlightComponentHolds) {
+  VERIFIES("LASSO-MDL-008~1");
+  const std::vector<Polygon> many(kMaxElements + 1);
+  CompileReport report;
+  try {
+    make_elements(many, LengthScale(1.0), 1, report);
+    FAIL();
+  } catch (const CompileError& error) {
+    EXPECT_EQ(std::string(error.what()).find("the model has 262145 elements; the limit is 262144"), 0U) << error.what();
   }
 }
 

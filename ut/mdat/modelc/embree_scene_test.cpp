@@ -10,7 +10,7 @@ namespace lasso::mdat {
 namespace {
 
 TEST(EmbreeScene, RaysEscapeWhereNothingIsInTheWay) {
-  VERIFIES("LASSO-MDL-011~1");
+  VERIFIES("LASSO-MDL-011~2");
   CompileReport report;
   const Surface surface = repair_mesh(shapes::box({-1, -1, -1}, {1, 1, 1}), 0, report);
   EmbreeScene scene;

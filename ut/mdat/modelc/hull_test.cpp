@@ -15,7 +15,7 @@ double reach(const std::vector<Vec3d>& points, const Vec3d& u) {
 }
 
 TEST(Hull, ReachesAsFarAsTheMeshInEveryDirection) {
-  VERIFIES("LASSO-MDL-015~1");
+  VERIFIES("LASSO-MDL-015~2");
   auto meshes = shapes::property_meshes();
   meshes.emplace_back("fine sphere", shapes::sphere(0.5, 90, 120));
   Random random(51);
@@ -32,7 +32,7 @@ TEST(Hull, ReachesAsFarAsTheMeshInEveryDirection) {
 }
 
 TEST(Hull, ABoxHasItsEightCorners) {
-  VERIFIES("LASSO-MDL-015~1");
+  VERIFIES("LASSO-MDL-015~2");
   Mesh mesh = shapes::box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
   shapes::append(mesh, shapes::sphere(0.4, 10, 10));
   EXPECT_EQ(extreme_points(mesh.vertices, 1, 256).size(), 8u);

@@ -17,7 +17,7 @@ Surface outward(const Mesh& mesh, CompileReport& report) {
 }
 
 TEST(TurnOutward, ASphereWithInwardWindingsIsTurned) {
-  VERIFIES("LASSO-MDL-011~1");
+  VERIFIES("LASSO-MDL-011~2");
   Mesh mesh = shapes::sphere(0.5, 8, 12);
   for (auto& t : mesh.triangles) std::swap(t[0], t[1]);
   CompileReport report;
@@ -28,7 +28,7 @@ TEST(TurnOutward, ASphereWithInwardWindingsIsTurned) {
 }
 
 TEST(TurnOutward, ThinClosedPlatesKeepTwoOneSidedFaces) {
-  VERIFIES("LASSO-MDL-011~1");
+  VERIFIES("LASSO-MDL-011~2");
   CompileReport report;
   const Surface surface = outward(shapes::box({0, 0, 0}, {1, 1, 0.001}), report);
   EXPECT_EQ(report.two_sided_triangles, 0u);
@@ -37,7 +37,7 @@ TEST(TurnOutward, ThinClosedPlatesKeepTwoOneSidedFaces) {
 }
 
 TEST(TurnOutward, OpenSheetsAndCupsAreSeenFromBothSides) {
-  VERIFIES("LASSO-MDL-011~1");
+  VERIFIES("LASSO-MDL-011~2");
   CompileReport sheet, cup;
   outward(shapes::sheet(1, 3), sheet);
   EXPECT_EQ(sheet.two_sided_triangles, 18u);
@@ -47,7 +47,7 @@ TEST(TurnOutward, OpenSheetsAndCupsAreSeenFromBothSides) {
 }
 
 TEST(TurnOutward, WhereNotAllAreAskedTheOthersHaveTheirComponentsAnswer) {
-  VERIFIES("LASSO-MDL-011~1");
+  VERIFIES("LASSO-MDL-011~2");
   const Mesh cup = shapes::cylinder(0.5, 1, 16, true, false);
   for (const double asked : {1.0, 0.0}) {
     CompileReport report;
@@ -61,7 +61,7 @@ TEST(TurnOutward, WhereNotAllAreAskedTheOthersHaveTheirComponentsAnswer) {
 }
 
 TEST(TurnOutward, ACrackDoesNotMakeABodyTwoSided) {
-  VERIFIES("LASSO-MDL-011~1");
+  VERIFIES("LASSO-MDL-011~2");
   Mesh mesh = shapes::box({0, 0, 0}, {1, 1, 1});
   mesh.vertices.push_back(mesh.vertices[7] + Vec3d(0, 0, -1e-4));
   for (std::size_t t = 10; t < 12; ++t) {
@@ -74,7 +74,7 @@ TEST(TurnOutward, ACrackDoesNotMakeABodyTwoSided) {
 }
 
 TEST(TurnOutward, HiddenPartsTurnToPositiveVolume) {
-  VERIFIES("LASSO-MDL-011~1");
+  VERIFIES("LASSO-MDL-011~2");
   Mesh inner = shapes::box({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1});
   for (auto& t : inner.triangles) std::swap(t[0], t[1]);
   Mesh mesh = shapes::box({-1, -1, -1}, {1, 1, 1});

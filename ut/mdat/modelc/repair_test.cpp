@@ -71,6 +71,12 @@ TEST(RepairMesh, DoubtsTheScaleOfAbsurdExtents) {
     EXPECT_NE(message.find("is the scale right?"), std::string::npos) << size << ": " << message;
   }
   EXPECT_NE(message_of(shapes::box({1e5, 0, 0}, {1e5 + 1, 1, 1})).find("is the scale right?"), std::string::npos);
+  const auto of_size = [](double size) { return message_of(shapes::box({0, 0, 0}, {size, size / 2, size / 3})); };
+  EXPECT_EQ(of_size(1.001e-3), "");
+  EXPECT_NE(of_size(0.999e-3).find("extent is 0.000999 m, at least 0.001 m are expected"), std::string::npos) << of_size(0.999e-3);
+  EXPECT_EQ(of_size(999.9), "");
+  EXPECT_NE(of_size(1001).find("extent is 1001 m"), std::string::npos) << of_size(1001);
+  EXPECT_NE(of_size(1001).find("at most 1000 m are expected"), std::string::npos) << of_size(1001);
 }
 
 TEST(RepairMesh, RefusesAMeshOfSliversOnly) {

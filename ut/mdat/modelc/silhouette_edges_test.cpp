@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cfg/capacities.hpp"
 #include "mdat/modelc/repair.hpp"
 #include "ut/mdat/modelc/meshes.hpp"
 #include "ut/support/verifies.hpp"
@@ -47,7 +48,7 @@ void expect_in_planes(const DecodedEdge& e) {
 }
 
 TEST(SilhouetteEdges, ABoxHasItsTwelve) {
-  VERIFIES("LASSO-MDL-014~1");
+  VERIFIES("LASSO-MDL-014~2");
   Mesh mesh = shapes::box({0, 0, 0}, {1, 2, 0.5});
   shapes::move(mesh, shapes::generic_turn(), {0.1, 0.2, 0.3});
   const auto edges = edges_of(mesh);
@@ -63,7 +64,7 @@ TEST(SilhouetteEdges, ABoxHasItsTwelve) {
 }
 
 TEST(SilhouetteEdges, BoundariesHaveOpposedPlanes) {
-  VERIFIES("LASSO-MDL-014~1");
+  VERIFIES("LASSO-MDL-014~2");
   const auto edges = edges_of(shapes::sheet(1, 3));
   ASSERT_EQ(edges.size(), 12u);  // the outline; inner edges are coplanar
   for (const DecodedEdge& e : edges) {
@@ -75,7 +76,7 @@ TEST(SilhouetteEdges, BoundariesHaveOpposedPlanes) {
 }
 
 TEST(SilhouetteEdges, EverySphereEdgeIsThereOnce) {
-  VERIFIES("LASSO-MDL-014~1");
+  VERIFIES("LASSO-MDL-014~2");
   const auto edges = edges_of(shapes::sphere(0.5, 8, 12));
   EXPECT_EQ(edges.size(), 7u * 12 + 8u * 12);  // parallels and meridians; quads of a sphere's grid are planar
   for (const DecodedEdge& e : edges) {
@@ -86,7 +87,7 @@ TEST(SilhouetteEdges, EverySphereEdgeIsThereOnce) {
 }
 
 TEST(SilhouetteEdges, BodiesThatTouchInAnEdgeKeepOneEdgeEach) {
-  VERIFIES("LASSO-MDL-014~1");
+  VERIFIES("LASSO-MDL-014~2");
   Mesh mesh = shapes::box({0, 0, 0}, {1, 1, 1});
   shapes::append(mesh, shapes::box({1, 1, 0}, {2, 2, 1}));
   const auto edges = edges_of(mesh);
@@ -103,15 +104,58 @@ TEST(SilhouetteEdges, BodiesThatTouchInAnEdgeKeepOneEdgeEach) {
 }
 
 TEST(SilhouetteEdges, AVertexInTheMiddleOfAFlatEdgeMakesNoBoundary) {
-  VERIFIES("LASSO-MDL-014~1");
+  VERIFIES("LASSO-MDL-014~2");
   Mesh mesh;  // a flat square whose lower half has a vertex more, joined by a triangle without area
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}, {0.5, 1, 0}, {0.5, -1, 0}};
   mesh.triangles = {{0, 1, 3}, {0, 2, 1}, {0, 4, 2}, {2, 4, 1}};
   EXPECT_EQ(edges_of(mesh).size(), 4u);
 }
 
+// Two faces that meet in an edge: as a roof, as a valley, and as one that is seen from below, too.
+TEST(SilhouetteEdges, AConcaveEdgeIsThereWhereItsFacesAreSeenFromBothSides) {
+  VERIFIES("LASSO-MDL-014~2");
+  const auto meeting = [](double rise, bool two_sided) {
+    Mesh mesh;
+    mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0.5, 1, rise}, {0.5, -1, rise}};
+    mesh.triangles = {{0, 1, 2}, {1, 0, 3}};
+    if (two_sided) mesh.triangles.insert(mesh.triangles.end(), {{0, 2, 1}, {1, 3, 0}});
+    int inner = 0;
+    for (const DecodedEdge& e : edges_of(mesh)) inner += e.flags == 0 ? 1 : 0;
+    return inner;
+  };
+  EXPECT_EQ(meeting(-1, false), 1);
+  EXPECT_EQ(meeting(1, false), 0) << "whoever saw one of its faces from behind would look through the solid";
+  EXPECT_EQ(meeting(1, true), 1);
+  EXPECT_EQ(meeting(-1.5e-4 / 2, false), 0) << "0.15 mrad are as flat";
+  EXPECT_EQ(meeting(-2.5e-4 / 2, false), 1);
+}
+
+// As many boundaries of one face along a line.
+TEST(SilhouetteEdges, MoreThanTheFlightComponentHoldsAreRefused) {
+  VERIFIES("LASSO-MDL-008~1");
+  const auto edges_found = [](std::uint32_t count) {
+    Surface surface;
+    std::vector<EdgeUse> uses(count);
+    for (std::uint32_t i = 0; i <= count; ++i) surface.vertices.emplace_back(1e-5 * i, 0, 0);
+    for (std::uint32_t i = 0; i < count; ++i) uses[i] = {i, i + 1, 0, 0, true};
+    Polygons polygons;
+    polygons.of_triangle = {0};
+    std::vector<Element> elements(1);
+    elements[0].n = Vec3d::UnitZ();
+    CompileReport report;
+    try {
+      make_edges(surface, uses, polygons, elements, LengthScale(4), report);
+    } catch (const CompileError& error) {
+      return std::string(error.what());
+    }
+    return std::to_string(report.edges);
+  };
+  EXPECT_EQ(edges_found(kMaxEdges), std::to_string(kMaxEdges));
+  EXPECT_EQ(edges_found(kMaxEdges + 1).find("the model has 131073 edges; the limit is 131072"), 0U);
+}
+
 TEST(SilhouetteEdges, ClashingWindingsTurnTheSecondPlaneRound) {
-  VERIFIES("LASSO-MDL-014~1");
+  VERIFIES("LASSO-MDL-014~2");
   Mesh roof;
   roof.vertices = {{0, 0, 0}, {1, 0, 0}, {0.5, 1, -1}, {0.5, -1, -1}};
   roof.triangles = {{0, 1, 2}, {0, 1, 3}};  // one up, one down

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -147,7 +148,7 @@ Pass equal_rows(const Vec3& m, const Vec3& n, double residual, int count) {
 }
 
 TEST_F(GaussNewtonTest, DirectionsThatNoRaySeesStayWhereTheyAre) {
-  VERIFIES("LASSO-REG-008~1");
+  VERIFIES("LASSO-REG-008~2");
   scan();
   const Vec3 n(0, 0, 1);
   Pass pass = equal_rows(Vec3(0.1, 0.2, -0.1), n, 2e-3, 100);
@@ -163,7 +164,7 @@ TEST_F(GaussNewtonTest, DirectionsThatNoRaySeesStayWhereTheyAre) {
 }
 
 TEST_F(GaussNewtonTest, CutsAStepToTheLongestOneInItsDirection) {
-  VERIFIES("LASSO-REG-016~1");
+  VERIFIES("LASSO-REG-016~2");
   scan();
   const Pose start = truth();
   const auto step_of = [&](double longest_m, Pose& pose) {
@@ -213,7 +214,7 @@ TEST_F(GaussNewtonTest, SaysWhenThereIsNoSolution) {
 }
 
 TEST_F(GaussNewtonTest, SettingsAreTheMissions) {
-  VERIFIES("LASSO-REG-003~1");
+  VERIFIES("LASSO-REG-003~2");
   scan();
   parameters().kernel_width = 7;
   parameters().incidence_max_rad = 1.1;
@@ -227,12 +228,101 @@ TEST_F(GaussNewtonTest, SettingsAreTheMissions) {
 
 // The largest that a mission may say.
 TEST_F(GaussNewtonTest, NoiseOfAPoorSurfaceAddsUp) {
-  VERIFIES("LASSO-REG-003~1");
+  VERIFIES("LASSO-REG-003~2");
   scan();
   parameters().surface_sigma_m = 1;
   const MatchSettings<N> s = settings();
   EXPECT_GT(s.surface_variance, N::Variance{0});
   EXPECT_GT(s.reference_variance, s.surface_variance);
+}
+
+// How many passes a look has, how far their steps go, and which of them ends it.
+class LookTest : public test::PoseFixture {
+ protected:
+  static constexpr int kOpening = 1;        // passes before those over all points
+  static constexpr int kCutOpening = 2;     // where the first step was cut
+  static constexpr int kFirstPatience = 3;  // passes after which a step within the pose's own uncertainty ends a look
+  static constexpr int kSecondPatience = 5;
+  static constexpr int kRoughPatience = 6;  // more of them where a step of the opening was cut
+
+  LookTest() { scan_.side = 24; }
+
+  HitSolution register_from(double rotation_rad, double shift_m) {
+    return register_hits(mission_, inverse(test::disturb(scan_.T_sensor_target, rotation_rad, shift_m, random_)), *workspace_);
+  }
+
+  // Does the first pass, over half of the points, ask for a step that is cut?
+  bool is_rough(Pose T_target_sensor) {
+    MatchSettings<FlightNumber> settings = make_settings(parameters(), *workspace_);
+    set_gate(parameters().gate_first_m, settings);
+    const Pass pass = take_pass(mission_, settings, {2, Lookup::kWalk}, *workspace_, T_target_sensor);
+    return length_of(pass.x, mission_.radius_m) > longest_step_m(parameters(), settings);
+  }
+};
+
+// Whatever the limit, of looks that no step ends.
+TEST_F(LookTest, EachOfTwoLooksHasAsManyPassesAsTheMissionSets) {
+  VERIFIES("LASSO-REG-011~2");
+  parameters().stop_translation_m = 0;
+  scan_.outliers = 0.2;
+  for (const int limit : {1, 2, 3}) {
+    parameters().iterations_max = limit;
+    for (int i = 0; i < 10; ++i) {
+      scan_.sigma_m = i % 2 == 0 ? 1e-3 : 5e-3;
+      scan();
+      const HitSolution solution = register_from(0.02, 0.02);
+      EXPECT_LE(solution.iterations, 2 * (kCutOpening + limit)) << limit;
+      EXPECT_GE(solution.iterations, kOpening + 1 + kOpening + 1) << limit;
+    }
+    EXPECT_LE(register_look(mission_, RegisterLook::kSecond, truth(), *workspace_).iterations, kCutOpening + limit);
+  }
+}
+
+// Far off along the boresight, within the kernel: the noise-free points ask for the whole way at once, in each pass.
+TEST_F(LookTest, NoStepGoesFartherThanTheGateOrTheNoiseOfAReturn) {
+  VERIFIES("LASSO-REG-016~2");
+  parameters().iterations_max = 1;
+  scan();
+  Pose start = scan_.T_sensor_target;
+  start.p[2] += 7e-3;
+  const double noise_m = std::hypot(parameters().sigma0_m, parameters().surface_sigma_m);
+  for (const double gate_m : {1e-6, 1.2e-3}) {
+    parameters().gate_first_m = gate_m;
+    const double longest_m = std::max(gate_m, noise_m);
+    const auto moved_m = [&](RegisterLook look) {
+      return (inverse(register_look(mission_, look, inverse(start), *workspace_).T_target_sensor).p - start.p).norm();
+    };
+    // Two passes that open a look, and one more; those of the second look may go twice as far.
+    EXPECT_LE(moved_m(RegisterLook::kFirst), 3.001 * longest_m) << gate_m;
+    EXPECT_GE(moved_m(RegisterLook::kFirst), 2.8 * longest_m) << gate_m;
+    EXPECT_LE(moved_m(RegisterLook::kSecond), 5.001 * longest_m) << gate_m;
+    EXPECT_GE(moved_m(RegisterLook::kSecond), 4.6 * longest_m) << gate_m;
+  }
+}
+
+// A look of a search goes on where one of an estimate is content with the pose's own uncertainty: the passes of both tell where that
+// begins.
+TEST_F(LookTest, ThePosesOwnUncertaintyCountsFromItsPassOn) {
+  VERIFIES("LASSO-REG-020~2");
+  scan_.sigma_m = 1e-3;
+  int first_pass = 1000, second_pass = 1000, rough_pass = 1000;
+  for (int i = 0; i < 60; ++i) {
+    scan_.outliers = i % 2 == 0 ? 0.05 : 0;
+    scan_.T_sensor_target = test::random_box_pose(random_);
+    scan();
+    Pose start = inverse(test::disturb(scan_.T_sensor_target, 0.006, 0.004, random_));
+    const auto passes_of = [&](RegisterLook look) { return register_look(mission_, look, start, *workspace_).iterations; };
+    const int first = register_first(mission_, start, *workspace_).iterations;
+    const int both = register_hits(mission_, start, *workspace_).iterations;
+    if (first < passes_of(RegisterLook::kFirst)) first_pass = std::min(first_pass, first);
+    if (both > first && both < first + passes_of(RegisterLook::kSecond)) second_pass = std::min(second_pass, both);
+    start = inverse(test::disturb(scan_.T_sensor_target, 0.03, 0.02, random_));
+    const int rough = register_first(mission_, start, *workspace_).iterations;
+    if (rough < passes_of(RegisterLook::kFirst) && is_rough(start)) rough_pass = std::min(rough_pass, rough);
+  }
+  EXPECT_EQ(first_pass, kFirstPatience + 1);
+  EXPECT_EQ(second_pass, kSecondPatience + 1);
+  EXPECT_GE(rough_pass, kFirstPatience + kRoughPatience + 1);
 }
 
 }  // namespace

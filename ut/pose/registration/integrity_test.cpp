@@ -31,7 +31,7 @@ class WeakDirectionsTest : public test::PoseFixture {
 };
 
 TEST_F(WeakDirectionsTest, AreThoseOfTheCovariance) {
-  VERIFIES("LASSO-REG-008~1");
+  VERIFIES("LASSO-REG-008~2");
   parameters().sigma_position_max_m = 0.05;
   parameters().sigma_attitude_max_rad = 3.0;
   for (int i = 0; i < 20; ++i) {
@@ -47,7 +47,7 @@ TEST_F(WeakDirectionsTest, AreThoseOfTheCovariance) {
 }
 
 TEST_F(WeakDirectionsTest, AreMeasuredByTheTighterLimit) {
-  VERIFIES("LASSO-REG-008~1");
+  VERIFIES("LASSO-REG-008~2");
   parameters().sigma_position_max_m = 0.05;
   parameters().sigma_attitude_max_rad = 0.01 / mission_.radius_m;
   Vec6 sigmas;
@@ -59,7 +59,7 @@ TEST_F(WeakDirectionsTest, AreMeasuredByTheTighterLimit) {
 }
 
 TEST_F(WeakDirectionsTest, ThereAreNoneInAGoodPose) {
-  VERIFIES("LASSO-REG-008~1");
+  VERIFIES("LASSO-REG-008~2");
   make_covariance(Vec6::Constant(1e-4));
   find_weak_directions(mission_, result_);
   EXPECT_EQ(result_.weak, 0);
@@ -158,6 +158,25 @@ TEST(Judge, NoiseIsTheStatedOneTimesItsTolerance) {
   EXPECT_LE(refused(p.noise_tolerance, 0), 12);
   EXPECT_GE(refused(1.2 * p.noise_tolerance, 0), 1980);
   EXPECT_LE(refused(1.2 * p.noise_tolerance, 0.44 * p.noise_tolerance * p.noise_tolerance), 12) << "the target may move";
+}
+
+TEST(Judge, TheLimitOfTheResidualsIsWhereTheEquationHasIt) {
+  VERIFIES("LASSO-REG-024~1");
+  MissionParameters p = preset_parameters();
+  Registration r = good_result();
+  for (const std::uint16_t inliers : {std::uint16_t{60}, std::uint16_t{390}}) {
+    r.inliers = inliers;
+    for (const double motion : {0.0, 0.7}) {
+      for (const double tolerance : {1.0, 1.5, 4.0}) {
+        p.noise_tolerance = tolerance;
+        const double limit = (1 + 3 * std::sqrt(2.0 / (inliers - 6))) * (tolerance * tolerance + motion);
+        r.normalized_residual = std::sqrt(limit * (1 - 1e-9));
+        EXPECT_EQ(judge(p, r, motion), PoseReason::kValid);
+        r.normalized_residual = std::sqrt(limit * (1 + 1e-9));
+        EXPECT_EQ(judge(p, r, motion), PoseReason::kHighResidual);
+      }
+    }
+  }
 }
 
 TEST(Judge, NothingRunIsNotValid) {

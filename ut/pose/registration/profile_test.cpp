@@ -69,7 +69,7 @@ TEST_F(ProfileTest, StepsEndAtHalfOfTheRadius) {
 
 // Near a minimum without residuals the cost rises with the square of the way, as the information says.
 TEST_F(ProfileTest, CostsRiseAsTheInformationSays) {
-  VERIFIES("LASSO-REG-025~2");
+  VERIFIES("LASSO-REG-025~3");
   scan_.sigma_m = 1e-5;
   scan();
   const HitSolution hits = registered(truth());

@@ -128,7 +128,7 @@ class WidenTest : public test::BeamTest {
 };
 
 TEST_F(WidenTest, AnHonestSigmaIsDoubledOnceAtMost) {
-  VERIFIES("LASSO-REG-025~2");
+  VERIFIES("LASSO-REG-025~3");
   scan();
   const HitSolution hits = registered(truth());
   Directions unobservable;
@@ -143,7 +143,7 @@ TEST_F(WidenTest, AnHonestSigmaIsDoubledOnceAtMost) {
 
 // The cost rises with the square: a sigma that is short by f > 5/4 is doubled until it is short by less.
 TEST_F(WidenTest, ASigmaThatIsTooSmallIsDoubledUntilTheCostRises) {
-  VERIFIES("LASSO-REG-025~2");
+  VERIFIES("LASSO-REG-025~3");
   scan();
   const HitSolution hits = registered(truth());
   const Mat6 covariance = honest(hits);
@@ -159,7 +159,7 @@ TEST_F(WidenTest, ASigmaThatIsTooSmallIsDoubledUntilTheCostRises) {
 }
 
 TEST_F(WidenTest, AnAxisAlongWhichNothingRisesIsUnseen) {
-  VERIFIES("LASSO-REG-025~2");
+  VERIFIES("LASSO-REG-025~3");
   scan();
   HitSolution hits = registered(truth());
   hits.usable = 0;  // no return counts: the cost is the same everywhere
@@ -170,8 +170,39 @@ TEST_F(WidenTest, AnAxisAlongWhichNothingRisesIsUnseen) {
   EXPECT_NEAR(axis_sigmas_m(wide)[5], kUnobservableSigma * mission_.radius_m, 1e-3 * mission_.radius_m);
 }
 
+// Where residuals show nine times the assumed variance, the information that is believed is a ninth, and the cost has to rise nine times as
+// much: a covariance that does not know of it is short by a factor of three.
+TEST_F(WidenTest, TheCostHasToRiseByTheNoiseThatResidualsShow) {
+  VERIFIES("LASSO-REG-025~3");
+  scan();
+  const HitSolution hits = registered(truth());
+  Mat6 covariance = honest(hits);
+  const double sigma_m = axis_sigmas_m(covariance)[5];
+  Directions unobservable;
+  widen_weak_axes(mission_, hits, 9, *workspace_, covariance, unobservable);
+  EXPECT_GT(axis_sigmas_m(covariance)[5], 0.7 * 3 * sigma_m);
+  EXPECT_LT(axis_sigmas_m(covariance)[5], 2.1 * 3 * sigma_m);
+  EXPECT_EQ(unobservable.count, 0);
+}
+
+TEST_F(WidenTest, AxesAreTriedFromAFiveHundredthToAFifthOfTheRadius) {
+  VERIFIES("LASSO-REG-025~3");
+  scan();
+  HitSolution hits = registered(truth());
+  hits.usable = 0;  // nothing rises: what is tried is unseen
+  const Vec6 inverse = radius_scale(mission_.radius_m).cwiseInverse();
+  for (const double share : {0.0019, 0.0021, 0.199, 0.201}) {
+    const double sigma_m = share * mission_.radius_m;
+    const Mat6 covariance = (sigma_m * sigma_m * inverse.cwiseAbs2()).asDiagonal();
+    const bool tried = share > 0.002 && share < 0.2;
+    Directions unobservable;
+    EXPECT_EQ(widened(hits, covariance, unobservable) != covariance, tried) << share;
+    EXPECT_EQ(unobservable.count, tried ? 6 : 0) << share;
+  }
+}
+
 TEST_F(WidenTest, AxesThatAreCertainAreNotTried) {
-  VERIFIES("LASSO-REG-025~2");
+  VERIFIES("LASSO-REG-025~3");
   scan();
   HitSolution hits = registered(truth());
   hits.usable = 0;

@@ -42,7 +42,7 @@ class PointMakerTest : public ::testing::Test {
 };
 
 TEST_F(PointMakerTest, NoiseIsThatOfTheRange) {
-  VERIFIES("LASSO-REG-003~1");
+  VERIFIES("LASSO-REG-003~2");
   const double range_m = 5;
   add(Vec3(0, 0, 1), range_m);
   make();
@@ -64,7 +64,7 @@ TEST_F(PointMakerTest, ReturnsFromBeyondTheSensorsRangesAreLeftOut) {
 
 // A place of the target, seen when it was somewhere else, is where it is at the reference time.
 TEST_F(PointMakerTest, PointsAreWhereTheTargetHasThemAtTheReferenceTime) {
-  VERIFIES("LASSO-REG-004~1");
+  VERIFIES("LASSO-REG-004~2");
   test::Generator random(91);
   const Vec3 origin(0.3, -0.2, 6);
   const Vec3 omega(0.05, -0.08, 0.04);
@@ -90,7 +90,7 @@ TEST_F(PointMakerTest, PointsAreWhereTheTargetHasThemAtTheReferenceTime) {
 
 // By Cayley's map: a twelfth of the angle's cube is its error.
 TEST_F(PointMakerTest, PointsOfATargetThatTurnsFastAreMovedAsFar) {
-  VERIFIES("LASSO-REG-004~1");
+  VERIFIES("LASSO-REG-004~2");
   const Vec3 origin(0, 0, 6);
   const Vec3 place(1, 0, 0);
   settings_.moving = true;

@@ -36,7 +36,7 @@ class PrepareTest : public test::PoseFixture {
 };
 
 TEST_F(PrepareTest, MovesEachRayByTheMotionSinceItsOwnTime) {
-  VERIFIES("LASSO-REG-004~1");
+  VERIFIES("LASSO-REG-004~2");
   scan();
   ASSERT_EQ(workspace_->rays.size(), image_->samples.size());
   double farthest = 0;
@@ -53,7 +53,7 @@ TEST_F(PrepareTest, MovesEachRayByTheMotionSinceItsOwnTime) {
 }
 
 TEST_F(PrepareTest, PointsLieOnTheBoxAtTheReferenceTime) {
-  VERIFIES("LASSO-REG-004~1");
+  VERIFIES("LASSO-REG-004~2");
   scan_.rates.omega_radps = Vec3(0.1, -0.15, 0.12);
   scan();
   ASSERT_GT(workspace_->points.size(), 60u);
@@ -66,7 +66,7 @@ TEST_F(PrepareTest, PointsLieOnTheBoxAtTheReferenceTime) {
 }
 
 TEST_F(PrepareTest, RaysStayAsMeasuredWithoutMotionOrDeskewing) {
-  VERIFIES("LASSO-REG-004~1");
+  VERIFIES("LASSO-REG-004~2");
   for (const bool deskew : {false, true}) {
     parameters().deskew = deskew ? 1 : 0;
     if (deskew) scan_.rates = Twist{};
@@ -79,7 +79,7 @@ TEST_F(PrepareTest, RaysStayAsMeasuredWithoutMotionOrDeskewing) {
 }
 
 TEST_F(PrepareTest, ANoiseModelThatGrowsWithRange) {
-  VERIFIES("LASSO-REG-003~1");
+  VERIFIES("LASSO-REG-003~2");
   parameters().sigma_k_per_m = 1.3e-4;
   parameters().sigma_angle_rad = 4e-4;
   parameters().surface_sigma_m = 2e-4;
@@ -129,7 +129,7 @@ TEST_F(PrepareTest, ASampleOfLargerSigmaWeighsLess) {
 }
 
 TEST_F(PrepareTest, KeepsMissesAndLeavesInvalidSamplesOut) {
-  VERIFIES("LASSO-REG-006~1 LASSO-REG-009~1 LASSO-REG-017~2");
+  VERIFIES("LASSO-REG-006~2 LASSO-REG-009~1 LASSO-REG-017~2");
   const RayState states[] = {RayState::kMiss, RayState::kInvalid, RayState::kHit, RayState::kInvalid, RayState::kMiss, RayState::kHit};
   RangeImage image;
   for (const RayState state : states) {
@@ -168,7 +168,7 @@ TEST_F(PrepareTest, KeepsMissesAndLeavesInvalidSamplesOut) {
 }
 
 TEST_F(PrepareTest, ReturnsFromWhereTheSensorDoesNotMeasureSayNothing) {
-  VERIFIES("LASSO-REG-006~1");
+  VERIFIES("LASSO-REG-006~2");
   parameters().range_min_m = 0.5;
   parameters().range_max_m = 20;
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -188,7 +188,7 @@ TEST_F(PrepareTest, ReturnsFromWhereTheSensorDoesNotMeasureSayNothing) {
 }
 
 TEST_F(PrepareTest, ReturnsFromFartherThanTheNumberTypeHoldsSayNothing) {
-  VERIFIES("LASSO-REG-006~1");
+  VERIFIES("LASSO-REG-006~2");
   parameters().range_max_m = 100 * N::kFarthest_m;
   RangeImage image;
   for (const double share : {0.9, 1.1, 4.0, 50.0}) {

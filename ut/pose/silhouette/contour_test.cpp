@@ -178,7 +178,7 @@ TEST_F(ContourTest, AnEdgeWithoutLengthIsAPoint) {
 }
 
 TEST_F(ContourTest, ALongerContourIsCutAtItsCapacity) {
-  VERIFIES("LASSO-REG-011~1");
+  VERIFIES("LASSO-REG-011~2");
   keep_contour_edge(kMaxContourEdges + 5);
   find();
   ASSERT_EQ(workspace_->contour.size(), kMaxContourEdges);
@@ -299,7 +299,7 @@ class ClipTest : public test::PoseFixture {
 };
 
 TEST_F(ClipTest, ARayIsInsideTheGridExactlyWithinItsSpan) {
-  VERIFIES("LASSO-IMG-007~1");
+  VERIFIES("LASSO-IMG-007~2");
   int met = 0;
   for (int i = 0; i < 100; ++i) {
     const FieldRay<N> ray = random_ray(i % 8);
@@ -319,7 +319,7 @@ TEST_F(ClipTest, ARayIsInsideTheGridExactlyWithinItsSpan) {
 }
 
 TEST_F(ClipTest, ARayWithoutDirectionIsNotBounded) {
-  VERIFIES("LASSO-IMG-007~1");
+  VERIFIES("LASSO-IMG-007~2");
   FieldRay<N> ray{};
   set_cells(mission_.field, ray);
   const FieldSpan<N> span = clip_to_grid(mission_.field, ray);
@@ -329,7 +329,7 @@ TEST_F(ClipTest, ARayWithoutDirectionIsNotBounded) {
 
 // From twice as far as places in the grid have numbers for.
 TEST(CastRay, ARayFromFarAwayMeetsWhatOneFromNearbyMeets) {
-  VERIFIES("LASSO-IMG-007~1");
+  VERIFIES("LASSO-IMG-007~2");
   const test::BoxModel box{{0.002, -0.001, 0.003}, {0.03, 0.02, 0.012}, 0.001, 0.01};
   test::TestImage image = test::make_box_image(preset_parameters(), box);
   const auto mission = std::make_unique<Mission>();

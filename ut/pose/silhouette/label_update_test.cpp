@@ -141,7 +141,7 @@ TEST(Labels, CovarianceShrinksAndStaysPositive) {
 }
 
 TEST(Labels, ADropOutWeighsLessThanAReturn) {
-  VERIFIES("LASSO-REG-006~1");
+  VERIFIES("LASSO-REG-006~2");
   test::Generator random(9);
   MissionParameters p = preset_parameters();
   p.dropout_probability = 0.3;

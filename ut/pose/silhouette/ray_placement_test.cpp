@@ -202,7 +202,7 @@ TEST_F(AimTest, SurfacesAreChosenWhereReturnsTellMore) {
 }
 
 TEST_F(AimTest, RaysMeetTheirPlacesAtTheirOwnTimes) {
-  VERIFIES("LASSO-SNS-014~2 LASSO-REG-004~1");
+  VERIFIES("LASSO-SNS-014~2 LASSO-REG-004~2");
   request_.rates.omega_radps = Vec3(0.08, -0.06, 0.05);
   request_.rates.v_mps = Vec3(0.06, -0.09, 0.05);
   aim();
