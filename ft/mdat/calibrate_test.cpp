@@ -125,7 +125,7 @@ TEST_F(Calibrate, TheDesignsTableGivesNoWrongPoseThatIsValid) {
 }
 
 TEST_F(Calibrate, ATableOfAnotherDeviceGivesNoScan) {
-  VERIFIES("LASSO-LCS-015~1");
+  VERIFIES("LASSO-LCS-015~2");
   folder.write("foreign.toml", replaced(kDevice, "serial = 7", "serial = 8"));
   EXPECT_EQ(track("foreign.toml", "1").at("lost"), 180);
   const Answer decoded = folder.mdat("decode run/telemetry.ccsds --packet sensor --items last_loss,lost_foreign --format csv");
@@ -135,7 +135,7 @@ TEST_F(Calibrate, ATableOfAnotherDeviceGivesNoScan) {
 }
 
 TEST_F(Calibrate, BadTablesAndRecordingsAreRefusedWithTheirPlace) {
-  VERIFIES("LASSO-LCS-015~1 LASSO-GND-023~1");
+  VERIFIES("LASSO-LCS-015~2 LASSO-GND-023~1");
   const std::string header = "plane_nx,plane_ny,plane_nz,plane_d_m,temperature_degC,angle_x_rad,angle_y_rad,peak\n";
   folder.write("raw.csv", header + "0,0,1,3,20,0,0,0.06\n");
   folder.write("header.csv", "x,y\n1,2\n");

@@ -1,4 +1,4 @@
-// Tracking while the simulated laser camera and its line fail by a script, as a user sees it: 180 frames each, 36 s.
+// Tracking while the simulated laser camera and its line fail by a script, as a user sees it: 360 frames each, 72 s.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -48,7 +48,7 @@ Outcome fly(const std::string& script) {
   const WorkFolder folder;
   folder.write("faults.toml", script);
   const Answer answer = folder.mdat(
-      "run missions/test.toml --scenario spin --frames 180 --no-report --sensor lcs-wire --camera-faults faults.toml --out run");
+      "run missions/test.toml --scenario spin --frames 360 --no-report --sensor lcs-wire --camera-faults faults.toml --out run");
   EXPECT_EQ(answer.exit_code, 0) << answer.err;
   const Json run = Json::parse(folder.read("run/results.json")).at("noisy");
   Outcome outcome{run.at("wrong"), run.at("lost"), run.at("invalid"), run.at("frames"), 0, {}};
@@ -72,7 +72,7 @@ TEST_P(CameraFaults, NeverMakeAWrongPoseAndAreCountedWithTheirCause) {
   VERIFIES("LASSO-LCS-011~1 LASSO-LCS-012~1 LASSO-SIM-032~1");
   const Case& expected = GetParam();
   const Outcome outcome = fly(expected.script);
-  EXPECT_EQ(outcome.frames, 180);
+  EXPECT_EQ(outcome.frames, 360);
   EXPECT_EQ(outcome.wrong, 0);
   EXPECT_GE(outcome.of(expected.counter), expected.least);
   EXPECT_EQ(outcome.of("lost"), outcome.lost_scans) << "what is lost has a cause";
@@ -88,10 +88,10 @@ TEST_P(CameraFaults, NeverMakeAWrongPoseAndAreCountedWithTheirCause) {
 }
 
 constexpr Case kCases[] = {
-    {"dropped", "[[fault]]\nkind = 'drop'\nfrom_s = 2\nto_s = 35\nprobability = 0.1\n", "missing_frames", 2500, 0, 0},
-    {"repeated", "[[fault]]\nkind = 'repeat'\nfrom_s = 2\nto_s = 35\nprobability = 0.1\n", "repeated_frames", 2500, 0, 0},
-    {"corrupted", "[[fault]]\nkind = 'corrupt'\nfrom_s = 2\nto_s = 35\nprobability = 0.05\n", "damaged_frames", 1500, 0, 0},
-    {"late", "[[fault]]\nkind = 'late'\nfrom_s = 2\nto_s = 35\ndelay_s = 0.03\n", "strayed", 4000, 0, 0},
+    {"dropped", "[[fault]]\nkind = 'drop'\nfrom_s = 2\nto_s = 70\nprobability = 0.1\n", "missing_frames", 5000, 0, 0},
+    {"repeated", "[[fault]]\nkind = 'repeat'\nfrom_s = 2\nto_s = 70\nprobability = 0.1\n", "repeated_frames", 5000, 0, 0},
+    {"corrupted", "[[fault]]\nkind = 'corrupt'\nfrom_s = 2\nto_s = 70\nprobability = 0.05\n", "damaged_frames", 3000, 0, 0},
+    {"late", "[[fault]]\nkind = 'late'\nfrom_s = 2\nto_s = 40\ndelay_s = 0.03\n", "strayed", 5000, 0, 0},
     {"too_late", "[[fault]]\nkind = 'late'\nfrom_s = 20.1\nto_s = 20.9\ndelay_s = 0.12\n", "lost_silent", 3, 3, 6, nullptr},
     {"silent", "[[fault]]\nkind = 'silent'\nfrom_s = 20\nto_s = 21.5\n", "lost_silent", 7, 7, 9, "lost_silent"},
     {"stuck_mirror", "[[fault]]\nkind = 'stuck_mirror'\nfrom_s = 20.13\nto_s = 20.85\n", "off_plan", 64, 4, 5, "lost_off_plan"},
@@ -100,18 +100,18 @@ constexpr Case kCases[] = {
      "[[fault]]\nkind = 'clock_jump'\nfrom_s = 20.1\njump_s = -1.7\n[[fault]]\nkind = 'clock_jump'\nfrom_s = 30.1\njump_s = 0.2\n",
      "clock_jumps", 2, 0, 0},
     {"clock_rate", "[[fault]]\nkind = 'clock_rate'\nfrom_s = 20\nto_s = 24\nrate = 0.05\n", "bad_times", 5000, 0, 0},
-    {"reset", "[[fault]]\nkind = 'reset'\nfrom_s = 20.1\n[[fault]]\nkind = 'reset'\nfrom_s = 30.15\n", "restarts", 2, 4, 6},
-    {"bit_errors", "[[fault]]\nkind = 'bit_errors'\nfrom_s = 0\nto_s = 36\nrate = 1e-4\n", "damaged_frames", 1500, 1, 18, "lost_silent"},
+    {"reset", "[[fault]]\nkind = 'reset'\nfrom_s = 20.1\n[[fault]]\nkind = 'reset'\nfrom_s = 40.15\n", "restarts", 2, 4, 6},
+    {"bit_errors", "[[fault]]\nkind = 'bit_errors'\nfrom_s = 0\nto_s = 72\nrate = 1e-4\n", "damaged_frames", 3000, 1, 36, "lost_silent"},
     {"everything",
-     "[[fault]]\nkind = 'bit_errors'\nfrom_s = 0\nto_s = 36\nrate = 1e-4\n"
-     "[[fault]]\nkind = 'drop'\nfrom_s = 1\nto_s = 35\nprobability = 0.05\n"
-     "[[fault]]\nkind = 'silent'\nfrom_s = 5\nto_s = 5.5\n"
-     "[[fault]]\nkind = 'stuck_mirror'\nfrom_s = 10.13\nto_s = 10.85\n"
-     "[[fault]]\nkind = 'late'\nfrom_s = 15\nto_s = 20\ndelay_s = 0.03\n"
-     "[[fault]]\nkind = 'saturated'\nfrom_s = 25.1\nto_s = 25.7\n"
-     "[[fault]]\nkind = 'reset'\nfrom_s = 30.1\n"
-     "[[fault]]\nkind = 'clock_jump'\nfrom_s = 32.5\njump_s = 1\n",
-     "samples_lost", 5000, 7, 30},
+     "[[fault]]\nkind = 'bit_errors'\nfrom_s = 0\nto_s = 72\nrate = 1e-4\n"
+     "[[fault]]\nkind = 'drop'\nfrom_s = 2\nto_s = 70\nprobability = 0.05\n"
+     "[[fault]]\nkind = 'silent'\nfrom_s = 10\nto_s = 10.5\n"
+     "[[fault]]\nkind = 'stuck_mirror'\nfrom_s = 20.13\nto_s = 20.85\n"
+     "[[fault]]\nkind = 'late'\nfrom_s = 30\nto_s = 40\ndelay_s = 0.03\n"
+     "[[fault]]\nkind = 'saturated'\nfrom_s = 50.1\nto_s = 50.7\n"
+     "[[fault]]\nkind = 'reset'\nfrom_s = 60.1\n"
+     "[[fault]]\nkind = 'clock_jump'\nfrom_s = 65.1\njump_s = 1\n",
+     "samples_lost", 10000, 10, 50},
 };
 INSTANTIATE_TEST_SUITE_P(All, CameraFaults, ::testing::ValuesIn(kCases), [](const auto& one) { return std::string(one.param.name); });
 

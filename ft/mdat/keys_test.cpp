@@ -54,7 +54,7 @@ TEST_F(KeysTest, AnImageIsSignedAndItsSignatureLookedAt) {
 }
 
 TEST_F(KeysTest, AKeyIsReplacedOverTheLinkAndHoldsInTheNextRun) {
-  VERIFIES("LASSO-LNK-046~1 LASSO-LNK-047~1");
+  VERIFIES("LASSO-LNK-046~2 LASSO-LNK-047~2");
   ASSERT_EQ(work_.mdat("key master --number 1 --out key1").exit_code, 0);
   EXPECT_EQ(work_.mdat("key master --number 2 --out key1").exit_code, 2) << "a key that is there is kept";
   EXPECT_EQ(work_.mdat("key key1 --number 2 --out key2").exit_code, 2) << "no key comes from a derived one";

@@ -34,7 +34,7 @@ double time_of(const Json& packet) {
 }
 
 TEST(Operate, AnOperatorCommandsARunningComponent) {
-  VERIFIES("LASSO-NEED-009~1 LASSO-LNK-026~2 LASSO-GND-021~2 LASSO-LNK-017~1 LASSO-LNK-022~1 LASSO-MOD-136~4 LASSO-MOD-173~2");
+  VERIFIES("LASSO-NEED-009~1 LASSO-LNK-026~2 LASSO-GND-021~2 LASSO-LNK-017~2 LASSO-LNK-022~2 LASSO-MOD-136~4 LASSO-MOD-173~2");
   const WorkFolder work;
   for (const std::string scheme : {"udp", "tcp"}) {
     const std::string url = scheme + "://127.0.0.1:" + free_port();
@@ -88,7 +88,7 @@ TEST(Operate, AnOperatorCommandsARunningComponent) {
 }
 
 TEST(Operate, AComponentWithAKeyTakesSignedCommandsAlone) {
-  VERIFIES("LASSO-LNK-021~1 LASSO-GND-164~1");
+  VERIFIES("LASSO-LNK-021~2 LASSO-GND-164~1");
   const WorkFolder work;
   work.write("key", std::string(64, 'a') + "\n");
   work.write("other", std::string(64, 'b') + "\n");
@@ -112,6 +112,12 @@ TEST(Operate, OtherMachinesReachARunWithAKeyOrWhereTheUserSaysSo) {
     const Answer answer = work.mdat("run missions/test.toml --scenario spin --no-report --link " + url);
     EXPECT_EQ(answer.exit_code, 2);
     EXPECT_NE(answer.err.find("--link " + url + ": whoever reaches this machine could command the run"), std::string::npos) << answer.err;
+  }
+  work.write("key", std::string(64, 'a') + "\n");
+  for (const std::string allowed : {"--key key", "--remote"}) {
+    const Answer answer =
+        work.mdat("run missions/test.toml --scenario spin --no-report --frames 1 --out run --force --link udp://0.0.0.0:0 " + allowed);
+    EXPECT_EQ(answer.exit_code, 0) << allowed << answer.err;
   }
 }
 

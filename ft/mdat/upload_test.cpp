@@ -103,7 +103,7 @@ class UploadTest : public ::testing::Test {
 };
 
 TEST_F(UploadTest, ALossOfPowerInTheMiddleLeavesTheOldImageAndALaterOneIsLoadedTriedAndTakenBack) {
-  VERIFIES("LASSO-IMG-011~1 LASSO-IMG-012~1 LASSO-IMG-015~1 LASSO-LNK-016~1 LASSO-LNK-017~1");
+  VERIFIES("LASSO-IMG-011~1 LASSO-IMG-012~1 LASSO-IMG-015~1 LASSO-LNK-016~2 LASSO-LNK-017~2");
   {
     const auto run = start("first.3dli", "the mission");
     interrupt_upload();

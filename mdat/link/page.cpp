@@ -132,9 +132,9 @@ constexpr const char* kOfAcceptance =
 constexpr const char* kOfKeys =
     "With an authenticator an image needs a signature behind its last byte as well, which `begin_image` counts among its bytes, and which "
     "its CRC-32C does not cover; that of `mdat` is the HMAC-SHA-256 over all bytes of the image, 32 bytes. `change_key` puts a further key "
-    "of commands on trial by its number: for 300 frames both keys count, then the new one has been confirmed by `confirm_key`, signed with "
-    "it, or is given up. Where the board cannot store it, `confirm_key` fails as `not_kept`, and the trial goes on. Numbers grow and come "
-    "to an end: `mdat` takes one that is at most 65,536 beyond that of the key in use (`docs/decisions/keys-by-link.md`).";
+    "of commands on trial by its number: both keys count until `confirm_key`, signed with the new one, makes that the only one, or until "
+    "it is given up after 300 frames. Where the board cannot store it, `confirm_key` fails as `not_kept`, and the trial goes on. Numbers "
+    "grow and come to an end: `mdat` takes one that is at most 65,536 beyond that of the key in use (`docs/decisions/keys-by-link.md`).";
 
 constexpr const char* kOfStreams =
     "In a byte stream what has no right CRC belongs to no packet: it is counted as skipped bytes (packet `link`), and not answered. A "

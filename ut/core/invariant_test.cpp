@@ -41,7 +41,7 @@ TEST(InvariantDeathTest, AnotherThreadRunsNobodysCode) {
 #endif
 
 TEST(Identity, AnApidIsOneOfTelemetryThatIsNeitherTimeNorIdle) {
-  VERIFIES("LASSO-LNK-043~1");
+  VERIFIES("LASSO-LNK-043~2");
   EXPECT_TRUE(is_valid({}));
   for (const std::uint16_t apid : std::initializer_list<std::uint16_t>{1, 0x3D2, 0x7FE}) EXPECT_TRUE(is_valid({apid, nullptr}));
   for (const std::uint16_t apid : std::initializer_list<std::uint16_t>{0, 0x7FF, 0x800, 0xFFFF}) EXPECT_FALSE(is_valid({apid, nullptr}));

@@ -31,7 +31,7 @@ class AcquisitionTaskTest : public ::testing::Test {
 };
 
 TEST_F(AcquisitionTaskTest, TakesTheLargestScanInOnePoll) {
-  VERIFIES("LASSO-EXE-005~1 LASSO-SNS-032~1");
+  VERIFIES("LASSO-EXE-005~2 LASSO-SNS-032~1");
   start(3, 1000);
   EXPECT_EQ(plan_.scan_id, 3u);
   task_->poll(200000);
@@ -75,7 +75,7 @@ TEST_F(AcquisitionTaskTest, ATargetOfUnknownAttitudeIsScannedAllAround) {
 }
 
 TEST_F(AcquisitionTaskTest, ScanThatFailsOrNeverStartsIsNotFit) {
-  VERIFIES("LASSO-EXE-005~1");
+  VERIFIES("LASSO-EXE-005~2");
   sensor_.refused = {0};
   sensor_.lost = {1};
   start(0, 0);

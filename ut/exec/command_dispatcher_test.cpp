@@ -17,7 +17,7 @@ using test::view;
 using test::without_events;
 
 TEST(CommandDispatcher, PingIsAnswered) {
-  VERIFIES("LASSO-LNK-013~1 LASSO-LNK-011~2");
+  VERIFIES("LASSO-LNK-013~2 LASSO-LNK-011~2");
   Link link;
   EXPECT_EQ(link.send(test::ping(7)), test::ping(7).size());
   const std::vector<Packet> answers = link.answers();
@@ -33,7 +33,7 @@ TEST(CommandDispatcher, PingIsAnswered) {
 }
 
 TEST(CommandDispatcher, WithAnAuthenticatorOnlyItsCommandsAreCarriedOut) {
-  VERIFIES("LASSO-LNK-021~1");
+  VERIFIES("LASSO-LNK-021~2");
   Link link;
   test::KeyedSum authenticator;
   link.component().use_authenticator(authenticator);
@@ -70,7 +70,7 @@ TEST(CommandDispatcher, ALinkThatIsSilentForLongIsAFaultWhereTheMissionSaysSo) {
 }
 
 TEST(CommandDispatcher, ReportsAreSentAsAskedFor) {
-  VERIFIES("LASSO-LNK-013~1");
+  VERIFIES("LASSO-LNK-013~2");
   Link link;
   for (const std::uint8_t asked : {std::uint8_t{0}, std::uint8_t{1}, std::uint8_t{8}, std::uint8_t{9}}) {
     Stream packet = test::set_hold(1, asked);
@@ -86,10 +86,19 @@ TEST(CommandDispatcher, ReportsAreSentAsAskedFor) {
       EXPECT_TRUE(answers.back().is(1, 7));
     }
   }
+  const auto answer_of_what_asks_for_none = [&](Stream packet) {
+    packet[6] = 0x20;
+    test::repair_crc(packet);
+    link.send(packet);
+    const std::vector<Packet> answers = link.answers();
+    return answers.size() == 1 && answers[0].header.service == 1 ? answers[0].header.subservice : 0;
+  };
+  EXPECT_EQ(answer_of_what_asks_for_none(test::set_mode(static_cast<std::uint8_t>(TrackingMode::kReacquiring), 10)), kSubserviceFailed);
+  EXPECT_EQ(answer_of_what_asks_for_none(test::set_mode(99, 11)), kSubserviceRefused);
 }
 
 TEST(CommandDispatcher, AStartByUplinkIsTrackedFromTheNextBoundaryOn) {
-  VERIFIES("LASSO-LNK-022~1 LASSO-LNK-011~2");
+  VERIFIES("LASSO-LNK-022~2 LASSO-LNK-011~2");
   Link link;
   link.run_frame();
   link.send(test::offer_start(true_start(0)));
@@ -106,7 +115,7 @@ TEST(CommandDispatcher, AStartByUplinkIsTrackedFromTheNextBoundaryOn) {
 }
 
 TEST(CommandDispatcher, ACommandedModeIsTakenAtTheNextBoundary) {
-  VERIFIES("LASSO-LNK-022~1 LASSO-MOD-173~2");
+  VERIFIES("LASSO-LNK-022~2 LASSO-MOD-173~2");
   Link link;
   link.send(test::set_mode(static_cast<std::uint8_t>(TrackingMode::kBearing)));
   link.send(test::set_hold(1, 1));
@@ -119,7 +128,7 @@ TEST(CommandDispatcher, ACommandedModeIsTakenAtTheNextBoundary) {
 }
 
 TEST(CommandDispatcher, WhatThePresentStateDoesNotAllowFailsWithItsReason) {
-  VERIFIES("LASSO-LNK-013~1");
+  VERIFIES("LASSO-LNK-013~2");
   Link link;
   link.send(test::set_mode(static_cast<std::uint8_t>(TrackingMode::kReacquiring)));
   std::vector<Packet> answers = link.answers();
@@ -138,7 +147,7 @@ TEST(CommandDispatcher, WhatThePresentStateDoesNotAllowFailsWithItsReason) {
 }
 
 TEST(CommandDispatcher, ARefusedCommandSaysWhyAndChangesNothing) {
-  VERIFIES("LASSO-LNK-013~1 LASSO-LNK-018~1 LASSO-LNK-019~1");
+  VERIFIES("LASSO-LNK-013~2 LASSO-LNK-018~2 LASSO-LNK-019~2");
   Link link;
   link.send(test::set_mode(99));
   std::vector<Packet> answers = link.answers();
@@ -158,7 +167,7 @@ TEST(CommandDispatcher, ARefusedCommandSaysWhyAndChangesNothing) {
 }
 
 TEST(CommandDispatcher, CountersAreToldWhenTheyChange) {
-  VERIFIES("LASSO-LNK-013~1");
+  VERIFIES("LASSO-LNK-013~2");
   Link link;
   EXPECT_TRUE(link.run_link_frame().empty()) << "standby, and no command";
   link.send(test::ping(0));
@@ -177,7 +186,7 @@ TEST(CommandDispatcher, CountersAreToldWhenTheyChange) {
 }
 
 TEST(CommandDispatcher, BytesThatBelongToNoCommandAreAnEvent) {
-  VERIFIES("LASSO-LNK-015~1");
+  VERIFIES("LASSO-LNK-015~2");
   Link link;
   link.run_frame();
   link.send({0xCC, 0xDD, 0xEE});
@@ -230,7 +239,7 @@ TEST(CommandDispatcher, CommandsDoNotDisturbTheTrack) {
 }
 
 TEST(CommandDispatcher, BeginIsAnEvent) {
-  VERIFIES("LASSO-LNK-015~1");
+  VERIFIES("LASSO-LNK-015~2");
   Link link;
   const std::vector<Packet> packets = link.run_frame();
   const std::vector<Stream> events = events_of(packets);
@@ -243,7 +252,7 @@ TEST(CommandDispatcher, BeginIsAnEvent) {
 }
 
 TEST(CommandDispatcher, EachRefusalIsAnEventWithItsReason) {
-  VERIFIES("LASSO-LNK-020~2 LASSO-LNK-015~1");
+  VERIFIES("LASSO-LNK-020~2 LASSO-LNK-015~2");
   Link link;
   link.run_frame();
   link.send(test::set_mode(99, 2));
@@ -265,8 +274,27 @@ TEST(CommandDispatcher, EachRefusalIsAnEventWithItsReason) {
   EXPECT_EQ(packets.back().header.subservice, 2);
 }
 
+TEST(CommandDispatcher, EightRefusalsIn25FramesAreEventsAndTheRestIsCounted) {
+  VERIFIES("LASSO-LNK-020~2 LASSO-LNK-015~2");
+  Link link;
+  std::string refusals;  // events of each frame
+  std::vector<Stream> suppressed;
+  for (std::uint16_t frame = 0; frame < 26; ++frame) {
+    link.send(test::set_mode(99, frame));
+    char told = '0';
+    for (const Stream& event : events_of(link.run_frame())) {
+      if (event[1] == static_cast<std::uint8_t>(EventId::kCommandRefused)) ++told;
+      if (event[1] == static_cast<std::uint8_t>(EventId::kEventsSuppressed)) suppressed.push_back(event);
+    }
+    refusals += told;
+  }
+  EXPECT_EQ(refusals, "11111111000000000000000001") << "a new window begins behind 25 frames";
+  ASSERT_EQ(suppressed.size(), 1u);
+  EXPECT_EQ(suppressed[0], (Stream{0, 15, 0, 4, 0, 0, 0, 17}));
+}
+
 TEST(CommandDispatcher, EventsAreDisabledAndEnabledByCommand) {
-  VERIFIES("LASSO-LNK-015~1 LASSO-LNK-022~1");
+  VERIFIES("LASSO-LNK-015~2 LASSO-LNK-022~2");
   Link link;
   link.send(test::disable_event(1, 0));
   link.send(test::disable_event(4, 1));
@@ -321,7 +349,7 @@ TEST(CommandDispatcher, EveryTransitionIsAnEventWithItsReason) {
 }
 
 TEST(CommandDispatcher, LostScansAndSensorsAreEvents) {
-  VERIFIES("LASSO-LNK-015~1");
+  VERIFIES("LASSO-LNK-015~2");
   Link link;
   link.send(test::set_mode(static_cast<std::uint8_t>(TrackingMode::kBearing)));
   for (std::uint32_t scan = 0; scan < 8; ++scan) link.scene.sensor.refused.insert(scan);
@@ -343,7 +371,7 @@ TEST(CommandDispatcher, LostScansAndSensorsAreEvents) {
 }
 
 TEST(CommandDispatcher, LateSlotsLateEstimatesAndLostTelemetryAreEvents) {
-  VERIFIES("LASSO-LNK-015~1");
+  VERIFIES("LASSO-LNK-015~2");
   Link link;
   link.send(test::set_mode(static_cast<std::uint8_t>(TrackingMode::kBearing)));
   std::vector<std::uint8_t> numbers;
@@ -363,7 +391,7 @@ TEST(CommandDispatcher, LateSlotsLateEstimatesAndLostTelemetryAreEvents) {
 
 // Each report by its bit, in the order of what happens.
 TEST(CommandDispatcher, ReportsOfACommandAreThoseThatItAsksFor) {
-  VERIFIES("LASSO-LNK-013~1");
+  VERIFIES("LASSO-LNK-013~2");
   constexpr std::uint8_t kBits[] = {kAcknowledgeAcceptance, kAcknowledgeStart, kAcknowledgeCompletion};
   constexpr std::uint8_t kReports[] = {kSubserviceAccepted, kSubserviceStarted, kSubserviceCompleted};
   for (std::uint8_t asked = 0; asked < 16; ++asked) {

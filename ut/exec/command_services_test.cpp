@@ -139,7 +139,7 @@ TEST_F(CommandServicesTest, AHostWhoseLinkAuthenticatesHasItsImagesJudgedAlone) 
 }
 
 TEST_F(CommandServicesTest, ANewKeyTakesTheOldOnesPlaceOnceItIsConfirmed) {
-  VERIFIES("LASSO-LNK-046~1");
+  VERIFIES("LASSO-LNK-046~2");
   begin(signed_image(test::first_image()));
   EXPECT_EQ(send(test::of_key(CommandKind::kChangeKey, 3, count_++), 0), ServiceRefusal::kNotArmed);
   EXPECT_EQ(change(10, 0), ServiceRefusal::kNoSuchKey);
@@ -173,7 +173,7 @@ TEST_F(CommandServicesTest, AKeyThatARestartWouldLoseIsNotConfirmed) {
 }
 
 TEST_F(CommandServicesTest, AKeyThatNobodyConfirmsIsGivenUp) {
-  VERIFIES("LASSO-LNK-046~1");
+  VERIFIES("LASSO-LNK-046~2");
   begin(signed_image(test::first_image()));
   EXPECT_EQ(change(3, 0), ServiceRefusal::kNone);
   run(kKeyTrialFrames - 1);

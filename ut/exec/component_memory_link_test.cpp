@@ -92,7 +92,7 @@ class MemoryLink : public ::testing::Test {
 
 // Backwards, with a break of the link in the middle; made active; taken back.
 TEST_F(MemoryLink, AnImageIsLoadedActivatedAndTakenBack) {
-  VERIFIES("LASSO-IMG-012~1 LASSO-IMG-013~1 LASSO-IMG-014~2 LASSO-LNK-016~1");
+  VERIFIES("LASSO-IMG-012~1 LASSO-IMG-013~1 LASSO-IMG-014~2 LASSO-LNK-016~2");
   run(5);
   const std::size_t blocks = (second_.size + kMemoryBlockBytes - 1) / kMemoryBlockBytes;
   const auto size = static_cast<std::uint32_t>(second_.size);
@@ -132,7 +132,7 @@ TEST_F(MemoryLink, AnImageIsLoadedActivatedAndTakenBack) {
 }
 
 TEST_F(MemoryLink, OnlyPermittedAreasAreWrittenTo) {
-  VERIFIES("LASSO-LNK-016~1");
+  VERIFIES("LASSO-LNK-016~2");
   const auto size = static_cast<std::uint32_t>(second_.size);
   LoadCommand command;
   command.bytes = 128;
@@ -153,7 +153,7 @@ TEST_F(MemoryLink, OnlyPermittedAreasAreWrittenTo) {
 }
 
 TEST_F(MemoryLink, MemoryIsDumpedAndCheckedByArea) {
-  VERIFIES("LASSO-LNK-016~1");
+  VERIFIES("LASSO-LNK-016~2");
   const ConstBytes active = component().images().active().sealed_image();
   ASSERT_EQ(ask(CommandKind::kDumpMemory, MemoryArea::kActiveImage, 1000, 100), ServiceRefusal::kNone);
   EXPECT_EQ(memory_.data[5], 100);

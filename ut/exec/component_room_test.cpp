@@ -12,7 +12,7 @@ using test::Stream;
 using test::view;
 
 TEST(ComponentRoom, AFloodIsAnsweredByTheFrame) {
-  VERIFIES("LASSO-LNK-011~2");
+  VERIFIES("LASSO-LNK-011~2 LASSO-LNK-022~2");
   Link link;
   Stream flood;
   for (std::uint16_t i = 0; i < 20; ++i) test::append(flood, test::ping(i));
@@ -27,7 +27,7 @@ TEST(ComponentRoom, AFloodIsAnsweredByTheFrame) {
 }
 
 TEST(ComponentRoom, WhatMakesSafeDoesNotWaitBehindAFramesCommands) {
-  VERIFIES("LASSO-LNK-040~1");
+  VERIFIES("LASSO-LNK-040~2 LASSO-LNK-022~2");
   for (const bool datagrams : {false, true}) {
     Link link;
     const auto send = [&](const Stream& packet) {

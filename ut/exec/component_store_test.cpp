@@ -147,7 +147,7 @@ TEST_F(ComponentStore, TheLogAndTheCauseSurviveARestart) {
 }
 
 TEST_F(ComponentStore, AResetIsArmedAndAskedOfTheBoardWhenItHasBeenTold) {
-  VERIFIES("LASSO-LNK-017~1");
+  VERIFIES("LASSO-LNK-017~2");
   EXPECT_EQ(send(test::plain_packet(CommandKind::kReset, next())), ServiceRefusal::kNotArmed);
   ASSERT_EQ(send(test::arm(CommandKind::kEnableLaser, next())), ServiceRefusal::kNone);
   ASSERT_EQ(send(test::plain_packet(CommandKind::kEnableLaser, next())), ServiceRefusal::kNone);

@@ -31,7 +31,7 @@ class EstimationTaskTest : public ::testing::Test {
 };
 
 TEST_F(EstimationTaskTest, GivesTheResultOfAJobThatIsDone) {
-  VERIFIES("LASSO-EXE-012~1");
+  VERIFIES("LASSO-EXE-012~2");
   EXPECT_TRUE(task_->idle());
   EXPECT_FALSE(task_->collect(step_));
   task_->submit(job_);
@@ -48,7 +48,7 @@ TEST_F(EstimationTaskTest, GivesTheResultOfAJobThatIsDone) {
 }
 
 TEST_F(EstimationTaskTest, RunsAJobOnce) {
-  VERIFIES("LASSO-EXE-012~1");
+  VERIFIES("LASSO-EXE-012~2");
   task_->submit(job_);
   task_->run();
   task_->run();
@@ -100,7 +100,7 @@ TEST_F(EstimationTaskTest, AScanOfAPartConfirmsNoStart) {
 }
 
 TEST_F(EstimationTaskTest, TwoJobsAtOnceAreABug) {
-  VERIFIES("LASSO-EXE-012~1");
+  VERIFIES("LASSO-EXE-012~2");
   task_->submit(job_);
   EXPECT_DEATH(task_->submit(job_), "busy");
 }

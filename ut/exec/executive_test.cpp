@@ -96,6 +96,10 @@ TEST(Executive, CountsASlipWhenASlotBeginsLaterThanItsLength) {
   executive.note_start(20001);
   EXPECT_EQ(executive.slips(), 1u);
   EXPECT_EQ(executive.worst_lateness_us(), 10001);
+  executive.advance();
+  executive.note_start(20500);
+  EXPECT_EQ(executive.slips(), 1u);
+  EXPECT_EQ(executive.worst_lateness_us(), 10001) << "of all";
 }
 
 TEST(Executive, AClockFarFromTheNextSlotHasJumped) {

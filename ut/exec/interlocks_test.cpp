@@ -14,7 +14,7 @@ using test::told;
 std::uint8_t number(ServiceRefusal refusal) { return static_cast<std::uint8_t>(refusal); }
 
 TEST(Interlocks, TheLaserIsInhibitedUntilItIsArmedAndEnabled) {
-  VERIFIES("LASSO-LNK-017~1 LASSO-LCS-006~1 LASSO-HLT-009~2");
+  VERIFIES("LASSO-LNK-017~2 LASSO-LCS-006~1 LASSO-HLT-009~2");
   Link link;
   EXPECT_FALSE(link.scene.sensor.laser_permitted) << "from the start";
   link.send(test::plain_packet(CommandKind::kEnableLaser, 1));
@@ -78,7 +78,7 @@ TEST(Interlocks, AFlippedBitOfTheLasersPermissionIsOutvotedToldAndRepaired) {
 }
 
 TEST(Interlocks, ModeSafeKeepsTheLaserDark) {
-  VERIFIES("LASSO-HLT-002~1 LASSO-LNK-017~1");
+  VERIFIES("LASSO-HLT-002~1 LASSO-LNK-017~2");
   Link link;
   link.send(test::arm(CommandKind::kEnableLaser, 0));
   link.send(test::set_mode(static_cast<std::uint8_t>(TrackingMode::kSafe), 1));
@@ -99,7 +99,7 @@ TEST(Interlocks, ModeSafeKeepsTheLaserDark) {
 }
 
 TEST(Interlocks, AnArmThatIsNotUsedExpiresAndSaysSo) {
-  VERIFIES("LASSO-LNK-017~1");
+  VERIFIES("LASSO-LNK-017~2");
   Link link;
   link.send(test::arm(CommandKind::kEnableLaser, 0));
   int expired_at = -1;
@@ -114,7 +114,7 @@ TEST(Interlocks, AnArmThatIsNotUsedExpiresAndSaysSo) {
 }
 
 TEST(Interlocks, TheLinkStructureSaysWhatIsArmedAndEnabled) {
-  VERIFIES("LASSO-LNK-017~1");
+  VERIFIES("LASSO-LNK-017~2");
   Link link;
   const auto link_of = [&] {
     LinkTelemetry telemetry;
@@ -168,7 +168,7 @@ TEST_F(InterlocksTest, EachSensorIsPermittedAndInhibited) {
 }
 
 TEST_F(InterlocksTest, AHazardousCommandUsesUpItsArmAndInhibitingTheLaserTakesItAway) {
-  VERIFIES("LASSO-LNK-017~1");
+  VERIFIES("LASSO-LNK-017~2");
   Command command;
   EXPECT_TRUE(interlocks.may_carry_out(command)) << "not hazardous";
   command.hazard = Hazard::kOnce;

@@ -198,7 +198,7 @@ FloodFigures fly_through(std::uint32_t per_slot) {
 }
 
 TEST(LinkPump, AFloodOfBadPacketsCostsLittleAndHoldsNoCommandBack) {
-  VERIFIES("LASSO-LNK-040~1");
+  VERIFIES("LASSO-LNK-040~2");
   const FloodFigures quiet = fly_through(0), flood = fly_through(3);
   ASSERT_EQ(quiet.commands, 10u);
   const double each = static_cast<double>(flood.telemetry - quiet.telemetry) / flood.bad;

@@ -95,7 +95,7 @@ PoseTelemetry numbered_report() {
 }
 
 TEST(Report, CarriesTheRegistration) {
-  VERIFIES("LASSO-EXE-006~1 LASSO-LNK-025~1 LASSO-NEED-004~1");
+  VERIFIES("LASSO-EXE-006~1 LASSO-LNK-025~2 LASSO-NEED-004~1");
   const PoseTelemetry t = numbered_report();
   const Quat q = numbered_step().registration.T_sensor_target.q;
   EXPECT_EQ(t.scan_id, 1u);
@@ -116,7 +116,7 @@ TEST(Report, CarriesTheRegistration) {
 }
 
 TEST(Report, CarriesQualityAndFilter) {
-  VERIFIES("LASSO-EXE-006~1 LASSO-LNK-025~1");
+  VERIFIES("LASSO-EXE-006~1 LASSO-LNK-025~2");
   const PoseTelemetry t = numbered_report();
   EXPECT_EQ(t.iterations, 5);
   EXPECT_EQ(t.rays, 6);
@@ -231,7 +231,7 @@ TEST(Report, CarriesTheSearchAndItsFirstCandidates) {
 }
 
 TEST(Report, CarriesPlanImageAndVersion) {
-  VERIFIES("LASSO-EXE-006~1 LASSO-LNK-025~1");
+  VERIFIES("LASSO-EXE-006~1 LASSO-LNK-025~2");
   const PoseTelemetry t = numbered_report();
   EXPECT_EQ(t.plan_center[0], 0.01);
   EXPECT_EQ(t.plan_center[1], 0.02);
@@ -245,10 +245,11 @@ TEST(Report, CarriesPlanImageAndVersion) {
   const std::uint32_t v = t.software_version;
   const std::string text = std::to_string(v >> 24) + "." + std::to_string(v >> 16 & 0xFF) + "." + std::to_string(v & 0xFFFF);
   EXPECT_EQ(text, version());
+  EXPECT_EQ(t.software_build, software_build());
 }
 
 TEST(Report, AgeIsNeverNegativeAndNeverWraps) {
-  VERIFIES("LASSO-EXE-006~1 LASSO-LNK-025~1");
+  VERIFIES("LASSO-EXE-006~1 LASSO-LNK-025~2");
   EXPECT_EQ(make_report(Mission{}, numbered_step(), ScanPlan{}, 1999999).age_us, 0u);
   EXPECT_EQ(make_report(Mission{}, numbered_step(), ScanPlan{}, 2000000 + (1LL << 33)).age_us, 0xFFFFFFFFu);
 }

@@ -61,7 +61,7 @@ TEST(Telemetry, TheWholeStreamFits64KilobitsASecond) {
 }
 
 TEST(Telemetry, HeadersStateSpacecraftTimeOnceItIsCorrelated) {
-  VERIFIES("LASSO-LNK-037~1 LASSO-HLT-006~2");
+  VERIFIES("LASSO-LNK-037~2 LASSO-HLT-006~2");
   Link link;
   link.run_frame();
   link.send(test::correlate_time(0, 86400000000, 0));

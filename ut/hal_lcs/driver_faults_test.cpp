@@ -112,7 +112,7 @@ TEST_F(LcsDriver, ABootEndsTheScan) {
 }
 
 TEST_F(LcsDriver, AnotherCamerasCalibrationIsNotUsed) {
-  VERIFIES("LASSO-LCS-015~1");
+  VERIFIES("LASSO-LCS-015~2");
   ASSERT_EQ(driver.start(small_plan(), kStartUs), Status::kOk);
   camera.status(1, kSerial + 1);
   camera.answer(camera.heard());
@@ -121,7 +121,7 @@ TEST_F(LcsDriver, AnotherCamerasCalibrationIsNotUsed) {
 }
 
 TEST_F(LcsDriver, ACameraThatHasNotSaidWhichItIsGivesNoPoint) {
-  VERIFIES("LASSO-LCS-015~1");
+  VERIFIES("LASSO-LCS-015~2");
   ASSERT_EQ(driver.start(small_plan(), kStartUs), Status::kOk);
   camera.answer(camera.heard());
   EXPECT_EQ(poll().status, Status::kBadVersion);
@@ -291,7 +291,7 @@ TEST_F(LcsDriver, AFrameThatComesAgainIsNoGap) {
 }
 
 TEST_F(LcsDriver, AnotherKindOfHeadIsNotBelieved) {
-  VERIFIES("LASSO-LCS-015~1");
+  VERIFIES("LASSO-LCS-015~2");
   ASSERT_EQ(driver.start(small_plan(), kStartUs), Status::kOk);
   CameraStatus status;
   status.serial = kSerial;
@@ -303,7 +303,7 @@ TEST_F(LcsDriver, AnotherKindOfHeadIsNotBelieved) {
 }
 
 TEST_F(LcsDriver, AnotherProtocolIsNotBelieved) {
-  VERIFIES("LASSO-LCS-015~1");
+  VERIFIES("LASSO-LCS-015~2");
   ASSERT_EQ(driver.start(small_plan(), kStartUs), Status::kOk);
   CameraStatus status;
   status.serial = kSerial;

@@ -101,7 +101,7 @@ TEST_F(LcsDriver, BelievesTheCalibrationThatItIsGiven) {
 }
 
 TEST_F(LcsDriver, ACalibrationOfAnotherCameraIsNotBelieved) {
-  VERIFIES("LASSO-LCS-015~1");
+  VERIFIES("LASSO-LCS-015~2");
   Calibration other = calibration();
   other.serial = kSerial + 1;
   driver.use_calibration(&other);
@@ -183,7 +183,7 @@ TEST(LcsDriverDeath, CalibrationThatIsNotValid) {
 }
 
 TEST_F(LcsDriver, AKindOfHeadThatIsNotDefinedIsForeign) {
-  VERIFIES("LASSO-LCS-015~1");
+  VERIFIES("LASSO-LCS-015~2");
   begin(small_plan());
   camera.say(camera.wall(small_plan(), 0));
   camera.status();  // as before: nothing ends by it

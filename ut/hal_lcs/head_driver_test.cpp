@@ -10,7 +10,7 @@ namespace lasso::lcs {
 namespace {
 
 TEST_F(LcsHeadDriver, BringsAScanFromPlanToPoints) {
-  VERIFIES("LASSO-LCS-022~1");
+  VERIFIES("LASSO-LCS-022~2");
   begin(plan);
   head.measure(plan, 10);
   EXPECT_EQ(poll(kStartUs + 12'000).count, 10U);
@@ -32,7 +32,7 @@ TEST_F(LcsHeadDriver, BringsAScanFromPlanToPoints) {
 }
 
 TEST_F(LcsHeadDriver, GivesTheSamplesOfTheDriverAtALine) {
-  VERIFIES("LASSO-LCS-022~1");
+  VERIFIES("LASSO-LCS-022~2");
   Line line;
   Driver other(line, Optics(calibration()));
   Camera camera(line);
@@ -55,7 +55,7 @@ TEST_F(LcsHeadDriver, GivesTheSamplesOfTheDriverAtALine) {
 }
 
 TEST_F(LcsHeadDriver, TellsTheHeadWhatToScanAndWhen) {
-  VERIFIES("LASSO-LCS-022~1");
+  VERIFIES("LASSO-LCS-022~2");
   AimedRays aimed;
   for (int i = 0; i < 9; ++i) EXPECT_TRUE(aimed.push_back({0.01F * static_cast<float>(i), -0.02F}));
   plan.aimed = aimed.span();

@@ -22,6 +22,24 @@ TEST_F(LcsHeadDriver, LetsTheLaserShineOnlyWithPermission) {
   EXPECT_NE(memory.laser.load(), kLaserMayShine);
 }
 
+// Either way: dark where it may not, and lit where it may.
+TEST_F(LcsHeadDriver, AWordThatADisturbanceHasChangedIsRightAgainAfterEachCall) {
+  VERIFIES("LASSO-LCS-024~1");
+  constexpr std::uint32_t kOther = 0x12345678;
+  const auto is_right_after = [&](bool permitted, auto call) {
+    memory.laser.store(permitted ? kOther : kLaserMayShine);
+    call();
+    return (memory.laser.load() == kLaserMayShine) == permitted;
+  };
+  for (const bool permitted : {true, false}) {
+    EXPECT_TRUE(is_right_after(permitted, [&] { driver.permit_laser(permitted); }));
+    EXPECT_TRUE(is_right_after(permitted, [&] { static_cast<void>(driver.start(plan, kStartUs)); }));
+    EXPECT_TRUE(is_right_after(permitted, [&] { static_cast<void>(driver.start(plan, kStartUs)); })) << "a start that is refused";
+    EXPECT_TRUE(is_right_after(permitted, [&] { poll(); }));
+    EXPECT_TRUE(is_right_after(permitted, [&] { driver.abort(); }));
+  }
+}
+
 TEST_F(LcsHeadDriver, AScanIsLostThoughPermissionIsBackBeforeItIsMissed) {
   VERIFIES("LASSO-LCS-006~1");
   begin(plan);
@@ -94,8 +112,12 @@ TEST_F(LcsHeadDriver, IsHeardWithEachCall) {
   EXPECT_TRUE(beaten());
   driver.abort();
   EXPECT_TRUE(beaten());
-  driver.permit_laser(true);
-  EXPECT_TRUE(beaten());
+  for (const bool permitted : {true, false}) {
+    driver.permit_laser(permitted);
+    EXPECT_TRUE(beaten());
+  }
+  EXPECT_EQ(driver.start(plan, kStartUs), Status::kMissing);
+  EXPECT_TRUE(beaten()) << "one that is refused, too";
 }
 
 TEST_F(LcsHeadDriver, AFlippedBitOfThePermissionChangesNothing) {

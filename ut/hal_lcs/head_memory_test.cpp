@@ -26,7 +26,7 @@ TEST(SharedFrame, IsWholeOrNone) {
 }
 
 TEST(SharedWord, HasItsHighestByteFirst) {
-  VERIFIES("LASSO-LCS-022~1");
+  VERIFIES("LASSO-LCS-022~2");
   SharedWord word;
   word.store(0x12345678);
   std::uint8_t bytes[4];

@@ -77,7 +77,7 @@ TEST(Optics, KnowTheirHeadAndItsMirrors) {
 
 // Its triangulation is another, behind the same mirrors; a LIDAR has none, and is then no head that the driver knows.
 TEST(Optics, AreCalibratedAnew) {
-  VERIFIES("LASSO-LCS-007~2 LASSO-LCS-015~1");
+  VERIFIES("LASSO-LCS-007~2 LASSO-LCS-015~2");
   Calibration other = near();
   other.serial = 11;
   other.angle_x_offset_rad = 0.004;
@@ -96,7 +96,7 @@ TEST(Optics, AreCalibratedAnew) {
 }
 
 TEST(Optics, AreRefusedForTheReasonOfTheirCalibration) {
-  VERIFIES("LASSO-LCS-015~1");
+  VERIFIES("LASSO-LCS-015~2");
   EXPECT_EQ(Optics(near()).validate(), Status::kOk);
   EXPECT_EQ(Optics(far()).validate(), Status::kOk);
   EXPECT_EQ(Optics(near(), far()).validate(), Status::kOk);
@@ -111,7 +111,7 @@ TEST(Optics, AreRefusedForTheReasonOfTheirCalibration) {
 }
 
 TEST(Optics, OfATridarAreOfOneHead) {
-  VERIFIES("LASSO-LCS-015~1 LASSO-LCS-016~2");
+  VERIFIES("LASSO-LCS-015~2 LASSO-LCS-016~2");
   const auto verdict = [](auto change) {
     EchoCalibration other = far();
     change(other);

@@ -86,7 +86,7 @@ TEST(TimeOfFlight, WhatIsNoPointSaysWhy) {
 }
 
 TEST(TimeOfFlight, RefusesCalibrationsThatBendSpace) {
-  VERIFIES("LASSO-LCS-015~1");
+  VERIFIES("LASSO-LCS-015~2");
   EXPECT_EQ(validate(slow_lidar()), Status::kOk);
   const auto verdict = [](auto change) {
     EchoCalibration c = slow_lidar();
@@ -108,7 +108,7 @@ TEST(TimeOfFlight, RefusesCalibrationsThatBendSpace) {
 
 // The flight that a calibration's farthest range takes, with the delay and by the head's clock, is one that the wire can say.
 TEST(TimeOfFlight, RefusesRangesWhoseFlightIsBeyondTheWiresEnd) {
-  VERIFIES("LASSO-LCS-015~1");
+  VERIFIES("LASSO-LCS-015~2");
   EchoCalibration c;
   c.serial = 7;
   c.range_max_m = 1190;  // 7.94 us

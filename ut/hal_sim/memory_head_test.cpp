@@ -15,7 +15,7 @@ namespace {
 class InMemory : public ::testing::TestWithParam<lcs::Device> {};
 
 TEST_P(InMemory, GivesTheBitsThatTheLineBrings) {
-  VERIFIES("LASSO-LCS-022~1");
+  VERIFIES("LASSO-LCS-022~2");
   const HeadScene scene;
   const LcsCamera camera = head_of(GetParam());
   LcsDevice device(*scene.caster, scene.motion, noisy_head(), kHeadSeed, camera);
@@ -81,6 +81,19 @@ TEST(MemoryHead, IsDarkWithoutPermissionOrAProcessor) {
   rig.driver.permit_laser(false);
   // A start that the driver would not have given.
   EXPECT_EQ(rig.result_of(lcs::encode(rig.next_sequence(), lcs::StartCommand{}), kHeadStartUs + 4'000'000), lcs::Result::kInhibited);
+}
+
+TEST(MemoryHead, IsDarkTwoSecondsAfterTheProcessorWasHeard) {
+  VERIFIES("LASSO-LCS-023~1");
+  HeadRig rig;
+  rig.driver.permit_laser(true);
+  const AimedRays none;
+  ASSERT_EQ(rig.driver.start(odd_plan(1, none), kHeadStartUs), Status::kOk);
+  rig.head.run(kHeadStartUs, rig.memory);
+  rig.head.run(kHeadStartUs + 2'000'000, rig.memory);
+  EXPECT_TRUE(rig.says_lit());
+  rig.head.run(kHeadStartUs + 2'000'001, rig.memory);
+  EXPECT_FALSE(rig.says_lit());
 }
 
 TEST(MemoryHead, IsDarkFromItsBootUntilTheProcessorIsHeard) {

@@ -10,7 +10,7 @@ namespace {
 constexpr CommandName kLaser{8, 1, 5}, kLoad{6, 2, 0};
 
 TEST(Arming, NothingFiresUnarmedOrTwice) {
-  VERIFIES("LASSO-LNK-017~1");
+  VERIFIES("LASSO-LNK-017~2");
   Arming arming;
   EXPECT_FALSE(arming.fire(kLaser, Hazard::kOnce));
   arming.arm(kLaser);
@@ -24,7 +24,7 @@ TEST(Arming, NothingFiresUnarmedOrTwice) {
 }
 
 TEST(Arming, AnotherHazardousCommandEndsIt) {
-  VERIFIES("LASSO-LNK-017~1");
+  VERIFIES("LASSO-LNK-017~2");
   for (const CommandName& other : {CommandName{9, 1, 5}, CommandName{8, 2, 5}, CommandName{8, 1, 6}}) {
     Arming arming;
     arming.arm(kLaser);
@@ -37,7 +37,7 @@ TEST(Arming, AnotherHazardousCommandEndsIt) {
 }
 
 TEST(Arming, ExpiresAfterItsFrames) {
-  VERIFIES("LASSO-LNK-017~1");
+  VERIFIES("LASSO-LNK-017~2");
   Arming arming;
   EXPECT_FALSE(arming.pass_boundary());
   arming.arm(kLaser);
@@ -107,7 +107,7 @@ TEST(Arming, ATimeThatNoTwoCopiesSayIsOver) {
 }
 
 TEST(Arming, ARowOfCommandsRenewsIt) {
-  VERIFIES("LASSO-LNK-017~1");
+  VERIFIES("LASSO-LNK-017~2");
   Arming arming;
   arming.arm(kLoad);
   for (int part = 0; part < 3; ++part) {

@@ -126,4 +126,40 @@ inline Stream of_memory(CommandKind kind, const MemoryCommand& range, std::uint1
   return command_packet(kind, memory_rows::kRange, range, count);
 }
 
+// One of each kind, with arguments that are in range.
+inline std::vector<Stream> every_command() {
+  return {ping(),
+          set_mode(5),
+          set_hold(1),
+          offer_start(StartCommand{}),
+          enable_event(2),
+          disable_event(3),
+          report_disabled(),
+          arm(CommandKind::kEnableLaser),
+          plain_packet(CommandKind::kEnableLaser),
+          plain_packet(CommandKind::kInhibitLaser),
+          of_structure(CommandKind::kEnableStructure, 1),
+          of_structure(CommandKind::kDisableStructure, 1),
+          of_structure(CommandKind::kReportStructure, 2),
+          set_period(1, 5),
+          correlate_time(1, 2),
+          report_parameter(3),
+          set_parameter(3, 0.5),
+          plain_packet(CommandKind::kRevertParameters),
+          begin_image(1000, 0x12345678),
+          plain_packet(CommandKind::kCheckImage),
+          activate_image(0x12345678),
+          plain_packet(CommandKind::kRollBackImage),
+          load_memory({0, 256, 3, {1, 2, 3}}),
+          of_memory(CommandKind::kDumpMemory, {1, 4096, 100}),
+          of_memory(CommandKind::kCheckMemory, {2, 0, 16384}),
+          plain_packet(CommandKind::kReset),
+          plain_packet(CommandKind::kSaveParameters),
+          plain_packet(CommandKind::kRestoreParameters),
+          report_stored(9, 3),
+          select_calibration({1, 3}),
+          of_key(CommandKind::kChangeKey, 3),
+          of_key(CommandKind::kConfirmKey, 3)};
+}
+
 }  // namespace lasso::test

@@ -14,7 +14,7 @@ PacketFault accept(CommandReceiver& receiver, const Stream& packet) {
 }
 
 TEST(CommandReceiver, FindsAcceptsAndCounts) {
-  VERIFIES("LASSO-LNK-019~1");
+  VERIFIES("LASSO-LNK-019~2");
   CommandReceiver receiver;
   Stream stream = {1, 2, 3};
   test::append(stream, test::set_mode(5, 1));
@@ -32,9 +32,8 @@ TEST(CommandReceiver, FindsAcceptsAndCounts) {
 }
 
 TEST(CommandReceiver, EveryTruncationAndEveryBitErrorIsRefusedAndCounted) {
-  VERIFIES("LASSO-LNK-019~1 LASSO-SYS-011~2");
-  const Stream commands[] = {test::ping(5), test::set_mode(5, 5), test::set_hold(1, 5), test::offer_start(StartCommand{}, 5)};
-  for (const Stream& good : commands) {
+  VERIFIES("LASSO-LNK-019~2 LASSO-SYS-011~2");
+  for (const Stream& good : test::every_command()) {
     CommandReceiver receiver;
     Command command;
     command.header.source = 99;
@@ -55,8 +54,33 @@ TEST(CommandReceiver, EveryTruncationAndEveryBitErrorIsRefusedAndCounted) {
   }
 }
 
+// By bytes that belong to no packet, and by no refusal: nobody knows that it was one.
+TEST(CommandReceiver, OfAStreamWhatIsCutOrDamagedIsSkippedAndCounted) {
+  VERIFIES("LASSO-LNK-019~2");
+  for (const Stream& good : test::every_command()) {
+    CommandReceiver receiver;
+    std::uint32_t skipped = 0;
+    const auto is_skipped = [&](const Stream& bytes) {
+      receiver.take(view(bytes));
+      while (receiver.packet().empty() && receiver.give_up()) {
+      }
+      skipped += static_cast<std::uint32_t>(bytes.size());
+      return receiver.packet().empty() && receiver.skipped() == skipped;
+    };
+    for (std::size_t n = 0; n < good.size(); ++n)
+      ASSERT_TRUE(is_skipped({good.begin(), good.begin() + static_cast<std::ptrdiff_t>(n)})) << n;
+    for (std::size_t bit = 0; bit < good.size() * 8; ++bit) {
+      Stream damaged = good;
+      damaged[bit / 8] = static_cast<std::uint8_t>(damaged[bit / 8] ^ (1u << (bit % 8)));
+      ASSERT_TRUE(is_skipped(damaged)) << bit;
+    }
+    receiver.take(view(good));
+    EXPECT_EQ(Stream(receiver.packet().begin(), receiver.packet().end()), good) << "it is found behind all that";
+  }
+}
+
 TEST(CommandReceiver, ACommandIsAcceptedOnce) {
-  VERIFIES("LASSO-LNK-018~1");
+  VERIFIES("LASSO-LNK-018~2");
   CommandReceiver receiver;
   EXPECT_EQ(accept(receiver, test::ping(0)), PacketFault::kNone) << "the first may have any count";
   EXPECT_EQ(accept(receiver, test::ping(0)), PacketFault::kRepeated);
@@ -72,7 +96,7 @@ TEST(CommandReceiver, ACommandIsAcceptedOnce) {
 }
 
 TEST(CommandReceiver, ARefusedCommandDoesNotMoveTheWindow) {
-  VERIFIES("LASSO-LNK-018~1");
+  VERIFIES("LASSO-LNK-018~2");
   CommandReceiver receiver;
   EXPECT_EQ(accept(receiver, test::ping(1)), PacketFault::kNone);
   EXPECT_EQ(accept(receiver, test::set_mode(99, 100)), PacketFault::kBadArgument);
@@ -80,7 +104,7 @@ TEST(CommandReceiver, ARefusedCommandDoesNotMoveTheWindow) {
 }
 
 TEST(CommandReceiver, SaysWhetherAPacketComesFromWhoMayCommand) {
-  VERIFIES("LASSO-LNK-040~1");
+  VERIFIES("LASSO-LNK-040~2");
   CommandReceiver receiver;
   Command command;
   EXPECT_FALSE(receiver.from_operator());

@@ -40,7 +40,7 @@ TEST(DownlinkDeath, AKindThatTheDictionaryDoesNotHave) {
 }
 
 TEST(Downlink, HeadersStateSpacecraftTimeOnceItIsCorrelated) {
-  VERIFIES("LASSO-LNK-037~1");
+  VERIFIES("LASSO-LNK-037~2");
   Downlink downlink;
   EXPECT_EQ(downlink.next_header({3, 25}, 5).time_status, kTimeStatusFree);
   downlink.correlate_time(1000000);

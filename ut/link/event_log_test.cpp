@@ -15,7 +15,7 @@ using Stream = std::vector<std::uint8_t>;
 Stream items_of(const EventRecord& event) { return {event.items, event.items + event.size}; }
 
 TEST(EventLog, KeepsWhatIsRaisedInOrderWithTimeAndItems) {
-  VERIFIES("LASSO-LNK-015~1");
+  VERIFIES("LASSO-LNK-015~2");
   EventLog log;
   log.set_time(7);
   log.raise<EventId::kBegun>(0x01020304U, 5U, 0xFFFFFFFFU, 2);
@@ -42,7 +42,7 @@ std::vector<EventId> told(const EventLog& log) {
 }
 
 TEST(EventLog, ADisabledEventIsNotToldUntilItIsEnabled) {
-  VERIFIES("LASSO-LNK-015~1");
+  VERIFIES("LASSO-LNK-015~2");
   EventLog log;
   EXPECT_TRUE(log.set_enabled(2, false));
   EXPECT_TRUE(log.set_enabled(9, false));
@@ -62,7 +62,7 @@ TEST(EventLog, ADisabledEventIsNotToldUntilItIsEnabled) {
 
 // Against a count by hand: windows begin with the first one, and last so many frames.
 TEST(EventLog, TellsNoMoreThanTheRowAllows) {
-  VERIFIES("LASSO-LNK-015~1");
+  VERIFIES("LASSO-LNK-015~2");
   EventLog log;
   const Throttle throttle = event_rows::row_of(EventId::kScanLost).throttle;
   ASSERT_EQ(throttle.most, 4);
@@ -84,7 +84,7 @@ TEST(EventLog, TellsNoMoreThanTheRowAllows) {
 }
 
 TEST(EventLog, AnEventThatIsNeverSuppressedSaysNothingOfIt) {
-  VERIFIES("LASSO-LNK-015~1");
+  VERIFIES("LASSO-LNK-015~2");
   EventLog log;
   log.raise<EventId::kScanLost>(0, 0, 0);
   for (int frame = 0; frame < 60; ++frame) {
@@ -94,7 +94,7 @@ TEST(EventLog, AnEventThatIsNeverSuppressedSaysNothingOfIt) {
 }
 
 TEST(EventLog, WhatWasSuppressedOfADisabledEventIsNotTold) {
-  VERIFIES("LASSO-LNK-015~1");
+  VERIFIES("LASSO-LNK-015~2");
   EventLog log;
   EXPECT_TRUE(log.set_enabled(static_cast<std::uint16_t>(EventId::kScanLost), false));
   for (int frame = 0; frame < 60; ++frame) {
@@ -106,7 +106,7 @@ TEST(EventLog, WhatWasSuppressedOfADisabledEventIsNotTold) {
 }
 
 TEST(EventLog, CountsWhatAFrameDoesNotHold) {
-  VERIFIES("LASSO-LNK-015~1");
+  VERIFIES("LASSO-LNK-015~2");
   EventLog log;
   for (std::size_t i = 0; i < kMaxEventsPerFrame + 5; ++i) log.raise<EventId::kModeChanged>(0, 0, i);
   ASSERT_EQ(log.records().size(), kMaxEventsPerFrame);
@@ -185,7 +185,7 @@ TEST(EventLog, AFlippedBitThatOpensAWindowKeepsNothingBackForMoreThanIt) {
 
 // Nothing is lost without being counted: reported, suppressed and dropped make up all that was raised.
 TEST(EventLog, EveryEventOfAStormIsToldOrCounted) {
-  VERIFIES("LASSO-LNK-015~1");
+  VERIFIES("LASSO-LNK-015~2");
   EventLog log;
   test::Generator random(5);
   std::uint32_t raised = 0, told = 0, suppressed = 0;

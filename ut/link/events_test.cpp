@@ -9,7 +9,7 @@ namespace {
 using test::Stream;
 
 TEST(Events, APacketIsNumberAndItemsAtTheEventsTime) {
-  VERIFIES("LASSO-LNK-015~1");
+  VERIFIES("LASSO-LNK-015~2");
   EventRecord event;
   event.id = EventId::kCommandRefused;
   event.severity = Severity::kLow;
@@ -36,7 +36,7 @@ TEST(Events, APacketIsNumberAndItemsAtTheEventsTime) {
 }
 
 TEST(Events, EveryRowIsAPacketOfItsSeverityAndExplained) {
-  VERIFIES("LASSO-LNK-015~1");
+  VERIFIES("LASSO-LNK-015~2");
   const PacketTable<kEvents - 1> packets = event_rows::packets();
   const event_rows::Choices choices = event_rows::choices();
   ASSERT_TRUE(event_rows::in_order());
@@ -53,7 +53,7 @@ TEST(Events, EveryRowIsAPacketOfItsSeverityAndExplained) {
     EXPECT_STRNE(row.cause, "");
     EXPECT_EQ(row.throttle.most == 0, row.throttle.frames == 0) << row.name;
   }
-  EXPECT_TRUE(severities[1] && severities[2] && severities[3]);
+  EXPECT_TRUE(severities[1] && severities[2] && severities[3] && severities[4]);
 }
 
 }  // namespace

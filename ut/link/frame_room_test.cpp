@@ -13,7 +13,7 @@ std::uint32_t taken(FrameRoom& room, const test::Stream& packet, PacketFault fau
 }
 
 TEST(FrameRoom, WhatMakesSafeHasRoomBehindAllOtherCommands) {
-  VERIFIES("LASSO-LNK-040~1");
+  VERIFIES("LASSO-LNK-040~2");
   const test::Stream ping = test::ping(), safe = test::set_mode(kSafeMode), laser = test::plain_packet(CommandKind::kInhibitLaser);
   FrameRoom room;
   EXPECT_EQ(taken(room, ping, PacketFault::kNone, true), 8u);
@@ -30,7 +30,7 @@ TEST(FrameRoom, WhatMakesSafeHasRoomBehindAllOtherCommands) {
 }
 
 TEST(FrameRoom, StrangersTakeNoCommandsRoomAndAreHardlyAnswered) {
-  VERIFIES("LASSO-LNK-040~1");
+  VERIFIES("LASSO-LNK-040~2 LASSO-LNK-013~2");
   const test::Stream ping = test::ping();
   FrameRoom room;
   std::uint32_t answered = 0, recounted = 0;

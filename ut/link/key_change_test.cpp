@@ -36,7 +36,7 @@ class KeyChangeTest : public ::testing::Test {
 };
 
 TEST_F(KeyChangeTest, ANewKeyIsKeptOnceItHasConfirmedItself) {
-  VERIFIES("LASSO-LNK-046~1");
+  VERIFIES("LASSO-LNK-046~2");
   EXPECT_EQ(change_.confirm(1), ServiceRefusal::kNoKeyOnTrial);
   EXPECT_EQ(change_.begin(1), ServiceRefusal::kNone);
   EXPECT_EQ(change_.confirm(1), ServiceRefusal::kNotByNewKey);
@@ -50,7 +50,7 @@ TEST_F(KeyChangeTest, ANewKeyIsKeptOnceItHasConfirmedItself) {
 }
 
 TEST_F(KeyChangeTest, AKeyThatNobodyConfirmsIsGivenUpInTime) {
-  VERIFIES("LASSO-LNK-046~1");
+  VERIFIES("LASSO-LNK-046~2");
   EXPECT_EQ(change_.begin(7), ServiceRefusal::kNone);
   for (std::uint32_t i = 1; i < kKeyTrialFrames; ++i) ASSERT_FALSE(change_.pass_boundary()) << i;
   EXPECT_EQ(keys_.trial, 7U);
@@ -85,7 +85,7 @@ TEST_F(KeyChangeTest, AKeyThatCannotBeStoredIsNotConfirmedAndStaysOnTrial) {
 
 // As after a flipped bit.
 TEST_F(KeyChangeTest, ATrialThatOnlyTheAuthenticatorKnowsOfEndsAtTheNextBoundary) {
-  VERIFIES("LASSO-LNK-046~1");
+  VERIFIES("LASSO-LNK-046~2");
   keys_.trial = 5;
   EXPECT_FALSE(change_.pass_boundary());
   EXPECT_EQ(keys_.trial, 0U);
@@ -93,7 +93,7 @@ TEST_F(KeyChangeTest, ATrialThatOnlyTheAuthenticatorKnowsOfEndsAtTheNextBoundary
 }
 
 TEST_F(KeyChangeTest, OneKeyIsOnTrialAtATime) {
-  VERIFIES("LASSO-LNK-046~1");
+  VERIFIES("LASSO-LNK-046~2");
   EXPECT_EQ(change_.begin(1), ServiceRefusal::kNone);
   EXPECT_EQ(change_.begin(2), ServiceRefusal::kKeyOnTrial);
   EXPECT_EQ(keys_.trial, 1U);
@@ -103,7 +103,7 @@ TEST_F(KeyChangeTest, OneKeyIsOnTrialAtATime) {
 }
 
 TEST_F(KeyChangeTest, AStartEndsATrial) {
-  VERIFIES("LASSO-LNK-046~1");
+  VERIFIES("LASSO-LNK-046~2");
   EXPECT_EQ(change_.begin(1), ServiceRefusal::kNone);
   KeyChange after_restart;
   after_restart.use_authenticator(keys_);

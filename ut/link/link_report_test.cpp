@@ -32,7 +32,7 @@ Stream data_of(const Stream& packet) {
 }
 
 TEST(LinkReport, AnAnswerNamesItsCommand) {
-  VERIFIES("LASSO-LNK-013~1");
+  VERIFIES("LASSO-LNK-013~2");
   const Stream answer = encode(kSubserviceRefused, kSample);
   std::uint32_t key = 0;
   ASSERT_TRUE(is_answer(test::view(answer), key));
@@ -46,7 +46,7 @@ TEST(LinkReport, AnAnswerNamesItsCommand) {
 }
 
 TEST(LinkReport, VerificationSaysWhichCommandAndWhy) {
-  VERIFIES("LASSO-LNK-013~1");
+  VERIFIES("LASSO-LNK-013~2");
   EXPECT_EQ(data_of(encode(kSubserviceAccepted, kSample)), (Stream{0x1B, 0xD1, 0xC0, 0x07}));
   EXPECT_EQ(data_of(encode(kSubserviceRefused, kSample)), (Stream{0x1B, 0xD1, 0xC0, 0x07, 3}));
   EXPECT_EQ(data_of(encode(kSubserviceStarted, kSample)), (Stream{0x1B, 0xD1, 0xC0, 0x07}));
@@ -100,7 +100,7 @@ void expect_round_trip(const TypedRow<Packet> (&rows)[kRows], test::Generator& r
 }
 
 TEST(LinkReport, EncodeDecodeEncodeIsByteIdenticalForEveryRow) {
-  VERIFIES("LASSO-LNK-023~1");
+  VERIFIES("LASSO-LNK-023~2");
   test::Generator random(23);
   expect_round_trip(pose_rows::kRows, random);
   expect_round_trip(health_rows::kRows, random);
@@ -122,6 +122,18 @@ TEST(LinkReport, EncodeDecodeEncodeIsByteIdenticalForEveryRow) {
   expect_round_trip(link_report_rows::kParameter, random);
   expect_round_trip(link_report_rows::kStoredEvent, random);
   expect_round_trip(command_rows::kStored, random);
+  expect_round_trip(command_rows::kStructure, random);
+  expect_round_trip(command_rows::kCalibration, random);
+  expect_round_trip(command_rows::kKey, random);
+  expect_round_trip(filter_rows::kRows, random);
+  expect_round_trip(named_pose_rows::kRows, random);
+  expect_round_trip(memory_rows::kBegin, random);
+  expect_round_trip(memory_rows::kActivate, random);
+  expect_round_trip(memory_rows::kLoad, random);
+  expect_round_trip(memory_rows::kRange, random);
+  expect_round_trip(memory_rows::kDumped, random);
+  expect_round_trip(memory_rows::kChecked, random);
+  expect_round_trip(memory_rows::kImage, random);
 }
 
 TEST(LinkReport, EveryPacketOfTheDictionaryIsAsLongAsItSays) {
@@ -145,7 +157,7 @@ TEST(LinkReport, EveryPacketOfTheDictionaryIsAsLongAsItSays) {
 }
 
 TEST(LinkReport, RefusalsHaveTheNumbersThatTheDictionaryNames) {
-  VERIFIES("LASSO-LNK-002~1 LASSO-LNK-013~1");
+  VERIFIES("LASSO-LNK-002~1 LASSO-LNK-013~2");
   const std::pair<ServiceRefusal, const char*> names[] = {{ServiceRefusal::kNone, "none"},
                                                           {ServiceRefusal::kNoSuchEvent, "no_such_event"},
                                                           {ServiceRefusal::kNotArmed, "not_armed"},

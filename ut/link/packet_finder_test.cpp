@@ -77,7 +77,7 @@ TEST(PacketFinder, FindsEveryPacketBetweenGarbage) {
     for (int i = 0; i < 4; ++i) {
       // Half of the garbage looks like the beginning of a packet.
       const Stream start = command(0, 0);
-      Stream noise(random.below(3) == 0 ? 0 : random.below(40));
+      Stream noise(random.below(3) == 0 ? 0 : random.below(round % 10 == 0 ? 20 * kRoom : 40));
       for (std::size_t k = 0; k < noise.size(); ++k) {
         noise[k] = k < 5 && random.below(2) == 0 ? start[k] : static_cast<std::uint8_t>(random.bits());
       }

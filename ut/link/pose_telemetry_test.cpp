@@ -165,6 +165,24 @@ TEST(PoseTelemetry, RefusesOtherPacketsAndLeavesThePoseAlone) {
   EXPECT_EQ(pose.scan_id, 99u);
 }
 
+TEST(PoseTelemetry, RefusesEveryTruncationAndEveryBitError) {
+  VERIFIES("LASSO-LNK-005~1");
+  const Packet good = encode(PoseTelemetry{});
+  PacketHeader header;
+  PoseTelemetry pose;
+  header.destination = 99;
+  pose.scan_id = 99;
+  for (std::size_t n = 0; n < good.size(); ++n) ASSERT_EQ(decode_pose({good.data(), n}, header, pose), PacketFault::kTruncated) << n;
+  Packet damaged = good;
+  for (std::size_t bit = 0; bit < good.size() * 8; ++bit) {
+    damaged[bit / 8] = static_cast<std::uint8_t>(good[bit / 8] ^ (1u << bit % 8));
+    ASSERT_NE(decode_pose(view(damaged), header, pose), PacketFault::kNone) << bit;
+    damaged[bit / 8] = good[bit / 8];
+  }
+  EXPECT_EQ(header.destination, 99);
+  EXPECT_EQ(pose.scan_id, 99u);
+}
+
 TEST(PoseTelemetry, TooSmallABufferGivesNoPacket) {
   VERIFIES("LASSO-LNK-004~1");
   Packet packet(743);

@@ -18,7 +18,7 @@ using C = TriangulationCalibration;
 C bent_camera() { return test::bent_calibration(7); }
 
 TEST(Calibration, RefusesCalibrationsThatBendSpace) {
-  VERIFIES("LASSO-LCS-015~1");
+  VERIFIES("LASSO-LCS-015~2");
   EXPECT_EQ(validate(bent_camera()), Status::kOk);
   const auto verdict = [](auto change) {
     C c = bent_camera();
@@ -121,7 +121,7 @@ TEST_F(ImageCalibrationsTest, ASensorMayHaveSeveral) {
 }
 
 TEST_F(ImageCalibrationsTest, WhatIsWrongIsRefusedWithItsPlace) {
-  VERIFIES("LASSO-LCS-015~1 LASSO-IMG-004~1 LASSO-IMG-005~1");
+  VERIFIES("LASSO-LCS-015~2 LASSO-IMG-004~1 LASSO-IMG-005~1");
   const auto refused = [&](const std::vector<std::pair<std::uint32_t, C>>& calibrations, Status status, std::uint32_t record) {
     const LoadFailure failure = load(with(calibrations));
     EXPECT_EQ(failure.status, status);

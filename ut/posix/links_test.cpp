@@ -67,7 +67,7 @@ TEST(Links, ASecondGroundStationTakesOverWhenTheFirstHasGone) {
 }
 
 TEST(Links, ByDatagramsWhoIsNotVouchedForIsToldNothingAndTakesNothing) {
-  VERIFIES("LASSO-LNK-041~1");
+  VERIFIES("LASSO-LNK-041~2");
   const auto component = open_link("udp://:0");
   const auto ground = connect_link(component->address()), stranger = connect_link(component->address());
   stranger->write(test::view(Stream{1}));
@@ -102,7 +102,7 @@ TEST(Links, TheGroundHearsItsComponentAlone) {
 }
 
 TEST(Links, WhoIsConfiguredIsToldFromTheBeginning) {
-  VERIFIES("LASSO-LNK-041~1");
+  VERIFIES("LASSO-LNK-041~2");
   const auto ground = open_link("udp://:0");
   const auto component = open_link("udp://:0", ground->address().substr(6));
   component->write(test::view(Stream{4}));
@@ -111,7 +111,7 @@ TEST(Links, WhoIsConfiguredIsToldFromTheBeginning) {
 }
 
 TEST(Links, AReceiverThatWouldBeToldNothingIsRefused) {
-  VERIFIES("LASSO-LNK-041~1");
+  VERIFIES("LASSO-LNK-041~2");
   const auto why = [](const std::string& told) -> std::string {
     try {
       open_link("udp://:0", told);
@@ -276,7 +276,7 @@ class Attackers {
 };
 
 TEST(Links, AttackersAtOtherPortsNeitherTakeTelemetryNorHoldTheOperatorBack) {
-  VERIFIES("LASSO-LNK-040~1 LASSO-LNK-041~1");
+  VERIFIES("LASSO-LNK-040~2 LASSO-LNK-041~2");
   constexpr std::uint16_t kAttackedFrames = 50;
   test::ComponentScene scene(test::box_parameters(test::default_scene()));
   test::OnceSum authenticator;

@@ -49,7 +49,7 @@ class UdpPeersTest : public ::testing::Test {
 };
 
 TEST_F(UdpPeersTest, WhatNobodyVouchesForMovesNothing) {
-  VERIFIES("LASSO-LNK-041~1");
+  VERIFIES("LASSO-LNK-041~2");
   static_cast<void>(hears(9, {1}));
   EXPECT_EQ(told(), "");
   command(1, 0);
@@ -58,7 +58,7 @@ TEST_F(UdpPeersTest, WhatNobodyVouchesForMovesNothing) {
 }
 
 TEST_F(UdpPeersTest, TheFirstStaysUntilItIsSilentAndTheOthersMakeWayForEachOther) {
-  VERIFIES("LASSO-LNK-041~1");
+  VERIFIES("LASSO-LNK-041~2");
   for (std::uint16_t port = 1; port <= 4; ++port) command(port, port);
   EXPECT_EQ(told(), "1 2 3 4 ");
   command(2, 5);
@@ -75,7 +75,7 @@ TEST_F(UdpPeersTest, TheFirstStaysUntilItIsSilentAndTheOthersMakeWayForEachOther
 }
 
 TEST_F(UdpPeersTest, ACrowdOfStrangersIsNotLookedAtAndWhoHasAPlaceIs) {
-  VERIFIES("LASSO-LNK-040~1");
+  VERIFIES("LASSO-LNK-040~2");
   command(1, 10);
   int looked_at = 0;
   for (int i = 0; i < 3000; ++i) looked_at += hears(9, {1}, 10) ? 1 : 0;
@@ -85,7 +85,7 @@ TEST_F(UdpPeersTest, ACrowdOfStrangersIsNotLookedAtAndWhoHasAPlaceIs) {
 }
 
 TEST_F(UdpPeersTest, WhoIsConfiguredIsToldAlwaysAndOnce) {
-  VERIFIES("LASSO-LNK-041~1");
+  VERIFIES("LASSO-LNK-041~2");
   peers_.configure(at_port(50));
   EXPECT_EQ(told(), "50 ");
   command(50, 0);
@@ -94,7 +94,7 @@ TEST_F(UdpPeersTest, WhoIsConfiguredIsToldAlwaysAndOnce) {
 }
 
 TEST_F(UdpPeersTest, AnAnswerGoesToWhoAskedToo) {
-  VERIFIES("LASSO-LNK-041~1");
+  VERIFIES("LASSO-LNK-041~2");
   command(1, 0);
   static_cast<void>(hears(2, test::set_mode(99, 77)));
   EXPECT_EQ(told(answer_to(test::set_mode(99, 77))), "1 2 ");

@@ -127,7 +127,7 @@ TEST_F(AcquisitionTest, SamplesLostOnTheWayAreNotThere) {
 }
 
 TEST_F(AcquisitionTest, IncompleteScanIsUsableFromFourFifthsAndOtherwiseDiscarded) {
-  VERIFIES("LASSO-SNS-024~1");
+  VERIFIES("LASSO-SNS-024~1 LASSO-EXE-005~2");
   const TimeUs enough = kStart + pattern_time_us(plan, 819);  // 820 of 1024 are the first to reach 80 %
   const ScanVerdict usable = run(100, enough);
   EXPECT_FALSE(usable.complete);

@@ -33,7 +33,7 @@ std::string drawn(const ItemRow& item, test::Generator& random) {
 }
 
 TEST(CommandEncoder, EveryCommandIsAcceptedByTheFlightDecoderAndReadBackTheSame) {
-  VERIFIES("LASSO-LNK-023~1 LASSO-GND-021~2");
+  VERIFIES("LASSO-LNK-023~2 LASSO-GND-021~2");
   test::Generator random(31);
   for (const PacketRow& row : kPackets) {
     if (row.type != PacketType::kCommand) continue;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "mdat/common/errors.hpp"
+#include "ut/link/command_packets.hpp"
 #include "ut/mdat/link/some_telemetry.hpp"
 #include "ut/support/verifies.hpp"
 
@@ -49,6 +50,20 @@ TEST_F(ConnectionTest, AComponentByDatagramsIsCalledUntilItAnswers) {
   listen_until(connection, 3);
   EXPECT_EQ(counts_, (std::vector<std::uint64_t>{0, 1, 4}));
   EXPECT_EQ(connection.health().missing(), 2U);
+}
+
+TEST_F(ConnectionTest, AComponentOfAnotherApplicationProcessIsCalledAndHeardAlone) {
+  VERIFIES("LASSO-LNK-044~1");
+  constexpr std::uint16_t kOther = 0x2A5;
+  const auto component = posix::open_link("udp://:0");
+  Connection connection({component->address(), false, std::nullopt, kOther}, listener());
+  const TelemetryBytes first = heard_by(*component, connection);
+  EXPECT_EQ(apid_of({first.data(), first.size()}), kOther);
+  send_pose(*component, 2);
+  const TelemetryBytes own = lasso::test::for_apid(pose_packet(3), kOther);
+  EXPECT_EQ(component->write({own.data(), own.size()}), own.size());
+  listen_until(connection, 1);
+  EXPECT_EQ(counts_, std::vector<std::uint64_t>{3});
 }
 
 TEST_F(ConnectionTest, ALinkThatEndsIsOpenedAgainAndWhatWasMissedMeanwhileIsMissing) {

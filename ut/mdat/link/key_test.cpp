@@ -29,7 +29,7 @@ std::string refusal(const std::string& file) {
 }
 
 TEST(Key, AKeyIsReadOrRefusedInWords) {
-  VERIFIES("LASSO-LNK-021~1");
+  VERIFIES("LASSO-LNK-021~2");
   std::string digits;
   for (int i = 0; i < 32; ++i) digits += "0b";
   EXPECT_EQ(load_key(written(digits + "\n")), kMaster);
@@ -42,7 +42,7 @@ TEST(Key, AKeyIsReadOrRefusedInWords) {
 }
 
 TEST(Key, ADerivedKeyIsNoMaster) {
-  VERIFIES("LASSO-LNK-046~1");
+  VERIFIES("LASSO-LNK-046~2");
   EXPECT_EQ(load_master_key(written(key_text(kMaster))), kMaster);
   const std::string file = written(key_text(derive_command_key(kMaster, 7)));
   try {
@@ -56,7 +56,7 @@ TEST(Key, ADerivedKeyIsNoMaster) {
 // Independent of the code under test: by `openssl kdf -keylen 32 -kdfopt mac:HMAC -kdfopt digest:SHA256 -kdfopt hexkey:0b..0b -kdfopt
 // mode:COUNTER -kdfopt salt:"3DLASSO command key" -kdfopt hexinfo:00000001 KBKDF`, and with another number, and another label.
 TEST(Key, DerivedKeysAreThoseOfOpenSslOnTheCommandLine) {
-  VERIFIES("LASSO-LNK-046~1");
+  VERIFIES("LASSO-LNK-046~2");
   EXPECT_EQ(key_text(derive_command_key(kMaster, 1)), "e07385179dd66466b2cc6d6fa3b9d30a3dc67fdaf04879bdfef9862615228014 1\n");
   EXPECT_EQ(key_text(derive_command_key(kMaster, 511)), "4795bb85acff9f8db11e9982fb354e3daacf385188f99b469c46ab2d394f2154 511\n");
   EXPECT_EQ(key_text(derive_image_key(kMaster)), "2ca0e8d170418ef01a9ab19c69f220f48dafd962ec2070eda3167925c83b44fd\n");
@@ -64,13 +64,13 @@ TEST(Key, DerivedKeysAreThoseOfOpenSslOnTheCommandLine) {
 }
 
 TEST(Key, AKeyThatIsWrittenIsReadAgain) {
-  VERIFIES("LASSO-LNK-046~1");
+  VERIFIES("LASSO-LNK-046~2");
   const Key key = derive_command_key(kMaster, 511);
   EXPECT_EQ(load_key(written(key_text(key))), key);
 }
 
 TEST(Key, CodesAreComparedWhole) {
-  VERIFIES("LASSO-LNK-021~1");
+  VERIFIES("LASSO-LNK-021~2");
   const std::uint8_t a[] = {1, 2, 3}, b[] = {1, 2, 4};
   EXPECT_TRUE(same_code(a, a));
   EXPECT_FALSE(same_code(a, b));

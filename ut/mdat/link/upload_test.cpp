@@ -4,6 +4,7 @@
 
 #include "mdat/common/errors.hpp"
 #include "mdat/link/command_encoder.hpp"
+#include "mdat/link/decode.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso::mdat {
@@ -13,16 +14,21 @@ class SilentLink final : public ByteLink {
  public:
   bool datagrams() const override { return true; }
   std::size_t read(Bytes) override { return 0; }
-  std::size_t write(ConstBytes packets) override { return packets.size(); }
+  std::size_t write(ConstBytes packets) override {
+    sent.emplace_back(packets.begin(), packets.end());
+    return packets.size();
+  }
+  std::vector<std::vector<std::uint8_t>> sent;
 };
 
-// What is said of an image of some blocks, with a command at a place.
-std::string said_of_command_at(std::size_t place) {
+// What is said of an image of some blocks, with a command at a place, that is uploaded to the component `apid`.
+std::string said_of_command_at(std::size_t place, std::uint16_t apid = kApid) {
   std::vector<std::uint8_t> image(2000, 0x18);
-  const std::vector<std::uint8_t> ping = encode_command(command_row("ping"), {}, 3);
+  const std::vector<std::uint8_t> ping = encode_command(command_row("ping"), {}, 3, apid);
   std::copy(ping.begin(), ping.end(), image.begin() + static_cast<std::ptrdiff_t>(place));
   UploadOptions options;
   options.answer_s = 0.01;
+  options.apid = apid;
   SilentLink link;
   try {
     static_cast<void>(upload(link, "link", image, options));
@@ -42,6 +48,18 @@ TEST(Upload, RefusesAnImageOfWhichABlockHoldsACommand) {
     EXPECT_NE(said.find("holds a command (ping) at byte " + std::to_string(place) + ":"), std::string::npos) << said;
   }
   for (const std::size_t between : {block - 12, block - 1, 3 * block - 6}) EXPECT_EQ(said_of_command_at(between), "sent") << between;
+  EXPECT_NE(said_of_command_at(700, 0x2A5).find("holds a command (ping) at byte 700:"), std::string::npos) << "of its component";
+}
+
+TEST(Upload, GoesToTheComponentThatItIsFor) {
+  VERIFIES("LASSO-LNK-044~1");
+  UploadOptions options;
+  options.answer_s = 0.01;
+  options.apid = 0x2A5;
+  SilentLink link;
+  EXPECT_THROW(static_cast<void>(upload(link, "link", std::vector<std::uint8_t>(2000, 0x18), options)), RunError) << "nobody answers";
+  ASSERT_FALSE(link.sent.empty());
+  for (const std::vector<std::uint8_t>& packet : link.sent) EXPECT_EQ(apid_of({packet.data(), packet.size()}), 0x2A5);
 }
 
 // What is said of it; empty: it would be sent.

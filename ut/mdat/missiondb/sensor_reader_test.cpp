@@ -106,7 +106,7 @@ TEST_F(SensorReaderTest, ASensorMayNameSeveralCalibrations) {
 }
 
 TEST_F(SensorReaderTest, CalibrationsThatAreNotRightAreNamed) {
-  VERIFIES("LASSO-LCS-015~1 LASSO-GND-001~1");
+  VERIFIES("LASSO-LCS-015~2 LASSO-GND-001~1");
   expect_error("[sensor]\ncalibration = 'none.toml'\n", "m.toml:8:15: sensor.calibration");
   expect_error("[sensor]\ncalibration = 'none.toml'\n", "mdat calibrate writes one");
   folder_.write("flat.toml", "serial = 3\n");
