@@ -113,6 +113,7 @@ TEST_F(VerdictTest, AcceptsUpToItsLimitsAndNotBeyond) {
   EXPECT_EQ(search_within(enough, *image).reason, SearchReason::kTooFewReturns);
   scan_.model.half = Vec3(0.09, 0.42, 0.05);  // another target: all poses leave something unexplained
   const auto other = scan_at(0);
+  look_from_few_sides();
   limits_ = SearchLimits();
   limits_.disagreement_max = 1;
   const double unexplained = search_within(enough, *other).disagreement;
