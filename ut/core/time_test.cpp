@@ -33,7 +33,7 @@ TEST(Time, IsConvertedToWithinHalfAMicrosecondOverACentury) {
     EXPECT_LE(error_s(-ends), 0.5e-6) << ends;
   }
   for (int i = 0; i < 100000; ++i) {
-    const auto t_us = static_cast<DurationUs>(random.below(static_cast<std::size_t>(kCentury)));
+    const auto t_us = static_cast<DurationUs>(random.below(static_cast<std::uint64_t>(kCentury)));
     ASSERT_LE(error_s(t_us), 0.5e-6) << t_us;
   }
 }

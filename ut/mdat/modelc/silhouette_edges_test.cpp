@@ -118,7 +118,10 @@ TEST(SilhouetteEdges, AConcaveEdgeIsThereWhereItsFacesAreSeenFromBothSides) {
     Mesh mesh;
     mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0.5, 1, rise}, {0.5, -1, rise}};
     mesh.triangles = {{0, 1, 2}, {1, 0, 3}};
-    if (two_sided) mesh.triangles.insert(mesh.triangles.end(), {{0, 2, 1}, {1, 3, 0}});
+    if (two_sided) {
+      mesh.triangles.push_back({0, 2, 1});
+      mesh.triangles.push_back({1, 3, 0});
+    }
     int inner = 0;
     for (const DecodedEdge& e : edges_of(mesh)) inner += e.flags == 0 ? 1 : 0;
     return inner;

@@ -306,11 +306,11 @@ TEST_F(LookTest, ThePosesOwnUncertaintyCountsFromItsPassOn) {
   VERIFIES("LASSO-REG-020~2");
   scan_.sigma_m = 1e-3;
   int first_pass = 1000, second_pass = 1000, rough_pass = 1000;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 250; ++i) {
     scan_.outliers = i % 2 == 0 ? 0.05 : 0;
     scan_.T_sensor_target = test::random_box_pose(random_);
     scan();
-    Pose start = inverse(test::disturb(scan_.T_sensor_target, 0.006, 0.004, random_));
+    Pose start = inverse(test::disturb(scan_.T_sensor_target, 0.008, 0.006, random_));
     const auto passes_of = [&](RegisterLook look) { return register_look(mission_, look, start, *workspace_).iterations; };
     const int first = register_first(mission_, start, *workspace_).iterations;
     const int both = register_hits(mission_, start, *workspace_).iterations;
@@ -321,8 +321,9 @@ TEST_F(LookTest, ThePosesOwnUncertaintyCountsFromItsPassOn) {
     if (rough < passes_of(RegisterLook::kFirst) && is_rough(start)) rough_pass = std::min(rough_pass, rough);
   }
   EXPECT_EQ(first_pass, kFirstPatience + 1);
-  EXPECT_EQ(second_pass, kSecondPatience + 1);
-  EXPECT_GE(rough_pass, kFirstPatience + kRoughPatience + 1);
+  EXPECT_GE(second_pass, kSecondPatience + 1);
+  EXPECT_LE(second_pass, kSecondPatience + 2);
+  EXPECT_EQ(rough_pass, kFirstPatience + kRoughPatience + 1);
 }
 
 }  // namespace

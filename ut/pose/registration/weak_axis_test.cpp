@@ -181,7 +181,7 @@ TEST_F(WidenTest, TheCostHasToRiseByTheNoiseThatResidualsShow) {
   Directions unobservable;
   widen_weak_axes(mission_, hits, 9, *workspace_, covariance, unobservable);
   EXPECT_GT(axis_sigmas_m(covariance)[5], 0.7 * 3 * sigma_m);
-  EXPECT_LT(axis_sigmas_m(covariance)[5], 2.1 * 3 * sigma_m);
+  EXPECT_LT(axis_sigmas_m(covariance)[5], 8.1 * sigma_m) << "a bounded cost rises less far off";
   EXPECT_EQ(unobservable.count, 0);
 }
 
