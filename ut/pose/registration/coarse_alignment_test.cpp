@@ -26,7 +26,7 @@ TEST_F(AfarTest, ConvergesFromTwentyDegreesAndAQuarterOfTheSize) {
   VERIFIES("LASSO-REG-005~1");
   constexpr int kStarts = 200;
   const double rotation_rad = 20 * kPi / 180;
-  const double shift_m = 0.25 * mission_.radius_m;
+  const double shift_m = 0.25 * static_cast<double>(mission_.search.size_m);
   int lost = 0;
   for (int i = 0; i < kStarts; ++i) {
     if (i % 10 == 0) {
