@@ -101,6 +101,27 @@ TEST_F(WideMinimaTest, FromALastPlaceThatFallsTheMinimumBeyondIsReached) {
   EXPECT_NEAR((found.T_target_sensor * scan_.T_sensor_target.p).x(), kWidePeriod_m, 5e-3) << "where the middle slat is taken to be";
 }
 
+// The last place lies on the slope to the second slat, higher than the place beside the first one.
+class SlopingMinimaTest : public MinimaTest {
+ protected:
+  static constexpr double kSlopingPeriod_m = 0.03;
+  static const Mission& mission() {
+    static const test::LoadedImage loaded(slats(8, kSlopingPeriod_m));
+    return loaded.mission;
+  }
+  SlopingMinimaTest() : MinimaTest(mission(), slats(8, kSlopingPeriod_m)) {}
+};
+
+TEST_F(SlopingMinimaTest, TheMinimumBeforeTheLastPlaceIsReachedWhereItLiesLower) {
+  VERIFIES("LASSO-REG-032~3");
+  ASSERT_NEAR(6 * kSpacing * radius_m() / kSlopingPeriod_m, 1.8, 0.05);
+  keep_middle(0.12);
+  const Minima found = minima(1e-3, shifted(kSlopingPeriod_m));
+  EXPECT_TRUE(found.is_elsewhere);
+  EXPECT_TRUE(found.are_apart);
+  EXPECT_NEAR((found.T_target_sensor * scan_.T_sensor_target.p).x(), kSlopingPeriod_m, 5e-3);
+}
+
 // One slat, whose neighbours are not there.
 class OneSlatTest : public MinimaTest {
  protected:
