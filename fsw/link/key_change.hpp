@@ -1,6 +1,6 @@
-// Another key for commands, by a command (docs/decisions/keys-by-link.md). Its number comes over the link, never the key. For
-// kKeyTrialFrames commands of either key count, so that an operator whose new key is wrong still has the component; then the new one has
-// been confirmed by a command of its own, or is given up. Used by one thread.
+// Another key for commands, by a command (docs/decisions/keys-by-link.md). Its number comes over the link, never the key. Until a command
+// of the new key confirms it, and for kKeyTrialFrames at most, commands of either key count, so that an operator whose new key is wrong
+// still has the component. After these frames the new key is given up. Used by one thread.
 #pragma once
 
 #include <cstdint>
